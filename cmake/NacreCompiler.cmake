@@ -1,0 +1,25 @@
+# Compiler settings that hold everywhere.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+
+add_library(nacre_compiler INTERFACE)
+# errno and floating-point traps forbid vectorisation and buy nothing here. -ffast-math stays off:
+# it would let the compiler assume that there are no NaNs, which the film must find.
+target_compile_options(nacre_compiler INTERFACE -Wall -Wextra -Werror -fno-math-errno -fno-trapping-math
+                       -Wno-psabi)
+if(NACRE_PORTABLE)
+    target_compile_options(nacre_compiler INTERFACE -march=x86-64-v3)
+else()
+    target_compile_options(nacre_compiler INTERFACE -march=native)
+endif()
+if(NACRE_SANITIZE)
+    target_compile_options(nacre_compiler INTERFACE -fsanitize=${NACRE_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(nacre_compiler INTERFACE -fsanitize=${NACRE_SANITIZE})
+endif()
