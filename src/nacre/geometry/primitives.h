@@ -1,0 +1,30 @@
+#pragma once
+// Analytic shapes of scene files, with Mitsuba's unit shapes and parametrisation.
+#include <variant>
+
+#include "nacre/geometry/transform.h"
+
+namespace nacre {
+
+/// Sphere: centre and radius in scene units (scene files: `center`, `radius`, any similarity
+/// transform).
+struct Sphere {
+    Point3f center;
+    float radius = 1.f;
+    bool flip_normals = false;
+};
+/// Disk: the unit disk in the xy plane, normal +z, mapped by an affine transform.
+struct Disk {
+    Transform to_world;
+    bool flip_normals = false;
+};
+/// Cylinder: lateral surface of radius 1 about z from z = 0 to z = 1, normals outwards, mapped by
+/// an affine transform.
+struct Cylinder {
+    Transform to_world;
+    bool flip_normals = false;
+};
+
+using Primitive = std::variant<Sphere, Disk, Cylinder>;
+
+}  // namespace nacre
