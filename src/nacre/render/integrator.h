@@ -1,0 +1,36 @@
+#pragma once
+// Integrators estimate the radiance that arrives along a camera ray.
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "nacre/render/sampler.h"
+#include "nacre/scene/scene.h"
+
+namespace nacre {
+
+/// Counts of what was traced, for benchmarks; each thread has its own.
+struct RayCounts {
+    std::uint64_t rays = 0;         ///< rays given to Embree, shadow rays included
+    std::uint64_t scatterings = 0;  ///< real scattering events in media
+    RayCounts& operator+=(const RayCounts& o) {
+        rays += o.rays;
+        scatterings += o.scatterings;
+        return *this;
+    }
+};
+
+class Integrator {
+  public:
+    virtual ~Integrator() = default;
+    /// One-sample estimate of the radiance along `ray` at the given wavelengths, already divided by
+    /// nothing: the film divides by the wavelengths' density.
+    virtual Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
+                              RayCounts& counts) const = 0;
+};
+
+/// The integrator named by scene.integrator. `scene` outlives it. Precomputation (distance grid)
+/// happens here. Throws InputError for an unknown type.
+std::unique_ptr<Integrator> make_integrator(const Scene& scene);
+
+}  // namespace nacre

@@ -1,0 +1,76 @@
+#pragma once
+// What a scene is, ready to render.
+#include <string>
+#include <vector>
+
+#include "nacre/geometry/ray_scene.h"
+#include "nacre/scene/camera.h"
+#include "nacre/scene/light.h"
+#include "nacre/scene/material.h"
+#include "nacre/scene/medium.h"
+
+namespace nacre {
+
+/// What is attached to shape i of the ray scene.
+struct ShapeBinding {
+    std::string name;                  ///< id or file name, for messages
+    MaterialPtr material;              ///< never null
+    const Light* light = nullptr;      ///< area light on it
+    const Medium* interior = nullptr;  ///< medium below the surface; null is vacuum
+    const Medium* exterior = nullptr;
+    bool separates_media =
+        false;  ///< interior or exterior was given: crossing the shape changes the medium
+};
+
+struct FilterSettings {
+    std::string type = "gaussian";  ///< box, tent, gaussian, mitchell
+    float radius = 0.f;  ///< 0: the type's default (box 0.5, tent 1, gaussian 4 stddev, mitchell 2)
+    float stddev = 0.5f;                 ///< gaussian
+    float b = 1.f / 3.f, c = 1.f / 3.f;  ///< mitchell
+};
+
+enum class FilmQuantity { radiance, luminance, illuminance };
+
+struct FilmSettings {
+    int width = 768, height = 576;
+    int crop_x = 0, crop_y = 0, crop_width = 0,
+        crop_height = 0;  ///< crop_width = 0: the whole film
+    FilterSettings filter;
+    FilmQuantity quantity = FilmQuantity::radiance;
+};
+
+struct SamplerSettings {
+    std::string type = "independent";  ///< independent, stratified, sobol
+    int samples = 16;
+    std::uint64_t seed = 0;
+};
+
+struct IntegratorSettings {
+    std::string type = "path";  ///< ray, path, volpath
+    int max_depth = -1;         ///< number of path segments; -1: no limit; 1 shows only what shines
+    int rr_depth = 5;           ///< from this depth on Russian roulette may end a path
+    bool hide_emitters = false;
+    bool moment = false;  ///< also write the per-pixel variance of a single sample
+    // The accelerations of volpath, each to be switched off by itself.
+    bool distance_grid = true;
+    bool guided_exits = true;
+};
+
+struct Scene {
+    RayScene rays;
+    std::vector<ShapeBinding> shapes;  ///< one for each shape of `rays`
+    std::vector<LightPtr> lights;
+    const Light* environment =
+        nullptr;  ///< what rays that leave the scene meet; also among `lights`
+    std::vector<MediumPtr> media;
+    CameraPtr camera;
+    const Medium* camera_medium = nullptr;
+    ColorMode mode = ColorMode::rgb_bands;
+    double mm_per_unit = 1.0;
+    FilmSettings film;
+    SamplerSettings sampler;
+    IntegratorSettings integrator;
+    std::vector<std::string> warnings;
+};
+
+}  // namespace nacre
