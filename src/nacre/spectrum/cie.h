@@ -18,7 +18,7 @@ float cie_d65(float nm);
 float d65_unit(float nm);
 
 /// Integral of ybar, nm: the scale of XYZ in nacre.
-inline constexpr float cie_y_integral = 106.856895f;
+inline constexpr float cie_y_integral = 106.857028f;
 
 /// XYZ of a spectrum given as a function of nm, in the scale of color.h; trapezoid rule of 0.5 nm
 /// over the visible range.

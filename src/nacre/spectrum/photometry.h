@@ -16,8 +16,8 @@ inline constexpr float km_photopic = 683.f;
 /// do.
 inline constexpr float km_scotopic = 1700.f;
 /// Multiplies Y in the scale of color.h, taken of a quantity per nm, to give its photometric
-/// counterpart: Km times the integral of ybar (106.856895 nm).
-inline constexpr float photometric_scale = km_photopic * 106.856895f;
+/// counterpart: Km times the integral of ybar (106.857028 nm).
+inline constexpr float photometric_scale = km_photopic * 106.857028f;
 
 /// Spectral luminous efficiency V(lambda), CIE 1924, equal to ybar; nm; 0 outside 360..830.
 float photopic_efficiency(float nm);

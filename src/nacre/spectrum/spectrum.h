@@ -50,7 +50,8 @@ SpectrumPtr make_tabulated(std::vector<float> nm, std::vector<float> value, Spec
 /// InputError unless kelvin > 0 and scale >= 0.
 SpectrumPtr make_blackbody(float kelvin, float scale = 1.f);
 
-/// A reflectance from linear RGB in [0, 1] (clamped): Jakob-Hanika uplift, see uplift.h.
+/// A reflectance from linear RGB in [0, 1] (clamped above): Jakob-Hanika uplift, see uplift.h. This
+/// and the next two throw InputError on negative or non-finite components.
 SpectrumPtr make_rgb_reflectance(Vec3f rgb);
 
 /// A non-negative quantity of any size from linear RGB: twice the largest component times the

@@ -24,9 +24,9 @@ struct SigmoidPolynomial {
 };
 
 /// The smooth reflectance whose colour under D65 is `rgb` (linear, sRGB primaries); components are
-/// clamped to [0, 1]. Round trip within 1e-3 but for colours at the very edge of the gamut. About
-/// 2 us a colour: a damped Gauss-Newton in CIELAB from the nearest entry of a small table that is
-/// solved on first use (tens of milliseconds; thread-safe, immutable afterwards).
+/// clamped to [0, 1]. Round trip within 3e-4 in each component. About 1 us a colour: a damped
+/// Gauss-Newton in CIELAB from the nearest entry of a small table that is solved on first use
+/// (about 15 ms; thread-safe, immutable afterwards).
 SigmoidPolynomial fit_rgb(Vec3f rgb);
 
 }  // namespace nacre
