@@ -27,7 +27,9 @@ struct Box3f {
 };
 
 /// Triangles over shared vertices. `normals` and `uvs` are empty or as many as `positions`.
-/// Orientation: counter-clockwise seen from outside.
+/// Orientation: counter-clockwise seen from outside. For ray queries reserve room for one position
+/// more than there are (`positions.reserve(n + 1)`): Embree reads 16 bytes of every 12-byte vertex,
+/// and a mesh without that room is copied.
 struct Mesh {
     using Triangle = std::array<std::uint32_t, 3>;
 
@@ -36,6 +38,8 @@ struct Mesh {
     std::vector<Vec3f> normals;
     std::vector<Vec2f> uvs;
     std::vector<Triangle> triangles;
+    /// Triangles of the file that a reader left out because two of their corners coincide.
+    std::size_t dropped_triangles = 0;
 
     Box3f bounds() const {
         Box3f box;

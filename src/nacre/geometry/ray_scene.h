@@ -92,6 +92,9 @@ class RayScene {
     AreaSample sample_area(std::uint32_t shape, Vec2f u) const;
     /// The mesh of a shape; null for analytic ones.
     const Mesh* mesh(std::uint32_t shape) const;
+    /// The analytic primitive of a shape; null for meshes (sphere lights are sampled by solid
+    /// angle).
+    const Primitive* primitive(std::uint32_t shape) const;
 
   private:
     struct Impl;

@@ -28,15 +28,22 @@ class Transform {
     Transform inverse() const;
     const Matrix& matrix() const { return m_; }
 
+    /// Points get the full homogeneous map (with the division by w where the map is projective).
     Point3f point(const Point3f& p) const;
     Vec3f vector(const Vec3f& v) const;
     /// Normals transform by the inverse transpose; the result is not normalised.
     Vec3f normal(const Vec3f& n) const;
+    /// The same maps in double precision.
+    Vec3d map_point(const Vec3d& p) const;
+    Vec3d map_vector(const Vec3d& v) const;
+    Vec3d map_normal(const Vec3d& n) const;
     /// True if the map turns right-handed frames into left-handed ones.
     bool swaps_handedness() const;
     bool is_identity() const;
 
   private:
+    Transform(const Matrix& m, const Matrix& inverse) : m_(m), inverse_(inverse) {}
+
     Matrix m_, inverse_;
 };
 
