@@ -5,19 +5,33 @@
 
 Prints the mean linear RGB of both over the mask and relMSE = mean of (picture - reference)^2 / (reference^2 + 0.01),
 where the worst 0.1 % of the values are left out: a single firefly would else decide the number. The mask is a picture
-whose green is above 0.5 where a pixel counts (bench/cycles/render_scene.py makes one). Reads uncompressed EXR files of
-32-bit floats in scan lines, which is what Blender writes when asked to; needs nothing but Python.
+whose green is above 0.5 where a pixel counts (bench/cycles/render_scene.py makes one). Reads EXR files in scan lines,
+uncompressed or with ZIP, of 16- or 32-bit floats; needs nothing but Python.
 """
 import argparse
-import array
+import itertools
 import struct
 import sys
+import zlib
+
+FORMATS = {1: "e", 2: "f"}  # OpenEXR's numbers for half and float, and struct's letters
+ROWS_PER_BLOCK = {0: 1, 2: 1, 3: 16}  # by compression: none, ZIPS, ZIP
+
+
+def inflate(block, size):
+    """Undoes OpenEXR's ZIP: deflate, then differences of bytes, then even bytes before odd ones."""
+    if len(block) == size:
+        return block  # it would not have become smaller
+    bytes_ = bytes(itertools.accumulate(zlib.decompress(block), lambda sum_, step: (sum_ + step - 128) & 255))
+    out, half = bytearray(size), (size + 1) // 2
+    out[0::2], out[1::2] = bytes_[:half], bytes_[half:]
+    return bytes(out)
 
 
 def read_exr(path):
-    """The file's width, height and channels: {"R": rows one after another, ...}. OpenEXR file layout, section 'Header'
-    and 'Scan line blocks': attributes of name, type, size, value; then a table of block offsets; then per row its
-    number, its size and all channels one after another in alphabetical order."""
+    """The file's width, height and channels: {"R": rows one after another, ...}. OpenEXR's file layout: attributes of
+    name, type, size, value; a table of the blocks' offsets; blocks of rows with first row, size, and per row all
+    channels one after another in alphabetical order."""
     with open(path, "rb") as file:
         data = file.read()
 
@@ -25,10 +39,9 @@ def read_exr(path):
         end = data.index(b"\0", at)
         return data[at:end].decode(), end + 1
 
-    magic, version = struct.unpack_from("<II", data)
-    if magic != 20000630:
+    if data[:4] != b"\x76\x2f\x31\x01":
         raise ValueError(f"{path}: not an EXR file")
-    if version & 0xFFFFFF00 & ~0x400:  # bit 10 only allows long names
+    if data[5] & ~0x04:  # that bit only allows long names
         raise ValueError(f"{path}: tiled, deep or multi-part EXR; expected plain scan lines")
     at, attributes = 8, {}
     while data[at]:
@@ -37,27 +50,32 @@ def read_exr(path):
         (size,) = struct.unpack_from("<i", data, at)
         attributes[name] = data[at + 4:at + 4 + size]
         at += 4 + size
-    if attributes["compression"][0] != 0:
-        raise ValueError(f"{path}: compressed EXR; write it without compression")
+    compression = attributes["compression"][0]
+    if compression not in ROWS_PER_BLOCK:
+        raise ValueError(f"{path}: EXR compression number {compression}; write it without or with ZIP")
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
 
-    names, channels, i = [], attributes["channels"], 0
-    while channels[i]:
-        end = channels.index(b"\0", i)
-        names.append(channels[i:end].decode())
-        if struct.unpack_from("<i", channels, end + 1)[0] != 2:
-            raise ValueError(f"{path}: channel {names[-1]} is not of 32-bit floats")
+    channels, i = [], 0  # name and format of a row
+    while attributes["channels"][i]:
+        end = attributes["channels"].index(b"\0", i)
+        name = attributes["channels"][i:end].decode()
+        (kind,) = struct.unpack_from("<i", attributes["channels"], end + 1)
+        if kind not in FORMATS:
+            raise ValueError(f"{path}: channel {name} is not of floating-point numbers")
+        channels.append((name, f"<{width}{FORMATS[kind]}"))
         i = end + 17
-    planes = {name: array.array("f", bytes(4 * width * height)) for name in names}
-    for offset in struct.unpack_from(f"<{height}Q", data, at + 1):
-        (row,) = struct.unpack_from("<i", data, offset)
-        for k, name in enumerate(names):
-            start = offset + 8 + 4 * width * k
-            values = array.array("f", data[start:start + 4 * width])
-            if sys.byteorder == "big":
-                values.byteswap()
-            planes[name][(row - top) * width:(row - top + 1) * width] = values
+    row_size = sum(struct.calcsize(row) for _, row in channels)
+    planes = {name: [0.0] * (width * height) for name, _ in channels}
+    rows = ROWS_PER_BLOCK[compression]
+    for offset in struct.unpack_from(f"<{-(-height // rows)}Q", data, at + 1):
+        first, size = struct.unpack_from("<ii", data, offset)
+        count = min(rows, bottom + 1 - first)
+        block, at_row = inflate(data[offset + 8:offset + 8 + size], count * row_size), 0
+        for y in range(first - top, first - top + count):
+            for name, row in channels:
+                planes[name][y * width:(y + 1) * width] = struct.unpack_from(row, block, at_row)
+                at_row += struct.calcsize(row)
     return width, height, planes
 
 
@@ -101,5 +119,5 @@ def main():
 
 try:
     main()
-except (OSError, ValueError) as problem:
+except (OSError, ValueError, struct.error, zlib.error) as problem:
     sys.exit(f"relmse.py: {problem}")
