@@ -154,6 +154,7 @@ std::uint32_t RayScene::add(std::shared_ptr<const Mesh> mesh, bool face_normals,
 std::uint32_t RayScene::add(const Primitive& primitive) {
     auto shape = std::make_unique<Impl::Shape>();
     shape->analytic = std::make_unique<AnalyticShape>(primitive);
+    shape->primitive = primitive;
     shape->bounds = shape->analytic->bounds();
     const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
@@ -257,6 +258,10 @@ SurfacePoint RayScene::surface_point(const Ray&, const Hit& hit) const {
 std::size_t RayScene::shape_count() const { return impl_->shapes.size(); }
 Box3f RayScene::bounds() const { return impl_->bounds; }
 Box3f RayScene::bounds(std::uint32_t shape) const { return impl_->shapes.at(shape)->bounds; }
+const Primitive* RayScene::primitive(std::uint32_t shape) const {
+    const auto& primitive = impl_->shapes.at(shape)->primitive;
+    return primitive ? &*primitive : nullptr;
+}
 const Mesh* RayScene::mesh(std::uint32_t shape) const {
     return impl_->shapes.at(shape)->mesh.get();
 }

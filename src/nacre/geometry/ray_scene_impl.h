@@ -14,6 +14,7 @@ struct RayScene::Impl {
     struct Shape {
         std::shared_ptr<const Mesh> mesh;  // one of these two is set
         std::unique_ptr<AnalyticShape> analytic;
+        std::optional<Primitive> primitive;  // what `analytic` was made from
         bool face_normals = false, flip_normals = false;
         std::vector<Point3f> padded;  // positions, if the mesh's own array lacks Embree's padding
         Box3f bounds;
