@@ -31,6 +31,8 @@ struct MaterialSample {
     bool delta = false;
     bool null =
         false;  ///< went straight through (wi = -wo): the surface was not there for this path
+    bool single_wavelength =
+        false;  ///< wi holds for lane 0 only: the other lanes of the path end here
 };
 
 class Material {

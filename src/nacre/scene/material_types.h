@@ -1,0 +1,20 @@
+#pragma once
+// The builders behind make_material, one a file (material_<type>.cpp), and what they share. Each is
+// called with a node whose type is its own, and reads all parameters that its type knows.
+#include "nacre/scene/build.h"
+
+namespace nacre {
+
+MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_null(const SceneNode& node, BuildContext& context);
+
+/// The texture of parameter `name`, a reflectance or transmittance: throws unless every value lies
+/// in [0, 1], since anything else would make or destroy energy.
+TexturePtr get_reflectance(const SceneNode& node, std::string_view name, float otherwise,
+                           BuildContext& context);
+
+/// The nested <bsdf> elements, built; throws unless there are between `least` and `most`.
+std::vector<MaterialPtr> nested_materials(const SceneNode& node, std::size_t least,
+                                          std::size_t most, BuildContext& context);
+
+}  // namespace nacre
