@@ -1,0 +1,171 @@
+// Lights of shapes. A surface shines on the side of its geometric normal only.
+#include <numbers>
+
+#include "nacre/scene/light_rectangle.h"
+#include "nacre/scene/light_types.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Any shape: points are drawn uniformly by area.
+class AreaLight : public Light {
+  public:
+    AreaLight(TexturePtr radiance, const RayScene& rays, std::uint32_t shape)
+        : radiance_(std::move(radiance)),
+          rays_(rays),
+          shape_(shape),
+          area_(static_cast<float>(rays.area(shape))) {}
+
+    LightSample sample(const Point3f& from, Vec2f u, const Wavelengths& w) const override {
+        const AreaSample at = rays_.sample_area(shape_, u);
+        const Vec3f d = at.p - from;
+        const float d2 = length_squared(d);
+        const float distance = std::sqrt(d2);
+        if (!(distance > 0.f)) return {};
+        const Vec3f wi = d * (1.f / distance);
+        const float cosine = -dot(wi, at.n);
+        if (!(cosine > 0.f)) return {};
+        return {wi, distance, radiance_->eval(at.uv, w), at.pdf * d2 / cosine};
+    }
+
+    float pdf(const Point3f& from, const Vec3f& wi, const SurfacePoint* on_light) const override {
+        if (!on_light) return 0.f;
+        const float cosine = -dot(wi, on_light->ng);
+        if (!(cosine > 0.f)) return 0.f;
+        return length_squared(on_light->p - from) / (area_ * cosine);
+    }
+
+    Spectral radiance(const SurfacePoint* on_light, const Vec3f& direction,
+                      const Wavelengths& w) const final {
+        if (!on_light || !(dot(direction, on_light->ng) < 0.f)) return Spectral(0.f);
+        return radiance_->eval(on_light->uv, w);
+    }
+
+    float power() const final { return pi * area_ * radiance_->mean(); }
+    Box3f bounds() const final { return rays_.bounds(shape_); }
+    bool is_spectral() const final { return radiance_->is_spectral(); }
+
+  protected:
+    TexturePtr radiance_;
+    const RayScene& rays_;
+    std::uint32_t shape_;
+    float area_;
+};
+
+/// A sphere of constant radiance: from outside, directions are uniform in the cone that it fills.
+class SphereLight final : public AreaLight {
+  public:
+    SphereLight(TexturePtr radiance, const RayScene& rays, std::uint32_t shape,
+                const Sphere& sphere)
+        : AreaLight(std::move(radiance), rays, shape),
+          center_(sphere.center),
+          radius_(sphere.radius),
+          shines_inwards_(sphere.flip_normals) {}
+
+    LightSample sample(const Point3f& from, Vec2f u, const Wavelengths& w) const override {
+        const Vec3f to_center = center_ - from;
+        const float d2 = length_squared(to_center), r2 = radius_ * radius_;
+        if ((d2 < r2) != shines_inwards_) return {};
+        if (shines_inwards_) return AreaLight::sample(from, u, w);
+        const float sin2_max = r2 / d2;
+        const float one_minus_cos_max = one_minus_cosine(sin2_max);
+        const float one_minus_cos = u.x * one_minus_cos_max;
+        const float cosine = 1.f - one_minus_cos;
+        const float sin2 = one_minus_cos * (2.f - one_minus_cos);
+        const float sine = std::sqrt(sin2);
+        const float phi = 2.f * pi * u.y;
+        const float d = std::sqrt(d2);
+        const Framef frame = Framef::around(to_center * (1.f / d));
+        const Vec3f wi = frame.to_world({sine * std::cos(phi), sine * std::sin(phi), cosine});
+        // Nearer crossing with the sphere. d cos - sqrt(r^2 - d^2 sin^2), where the root is written
+        // by the angle's distance from the rim so that it does not cancel.
+        const float distance = d * (cosine - std::sqrt(std::max(0.f, sin2_max - sin2)));
+        return {normalize(wi), distance, radiance_->eval({}, w),
+                1.f / (2.f * pi * one_minus_cos_max)};
+    }
+
+    float pdf(const Point3f& from, const Vec3f& wi, const SurfacePoint* on_light) const override {
+        if (!on_light) return 0.f;
+        const float d2 = length_squared(center_ - from), r2 = radius_ * radius_;
+        if ((d2 < r2) != shines_inwards_) return 0.f;
+        if (shines_inwards_) return AreaLight::pdf(from, wi, on_light);
+        return 1.f / (2.f * pi * one_minus_cosine(r2 / d2));
+    }
+
+  private:
+    /// 1 - cos of the cone's half angle from its squared sine, exact for small cones.
+    static float one_minus_cosine(float sin2) {
+        return sin2 / (1.f + std::sqrt(std::max(0.f, 1.f - sin2)));
+    }
+
+    Point3f center_;
+    float radius_;
+    bool shines_inwards_;
+};
+
+/// A rectangle of constant radiance: directions are uniform in the solid angle that it fills.
+class RectangleLight final : public AreaLight {
+  public:
+    RectangleLight(TexturePtr radiance, const RayScene& rays, std::uint32_t shape,
+                   const Rectangle& rectangle)
+        : AreaLight(std::move(radiance), rays, shape),
+          rectangle_(rectangle),
+          normal_(rays.sample_area(shape, {0.5f, 0.5f}).n) {}
+
+    LightSample sample(const Point3f& from, Vec2f u, const Wavelengths& w) const override {
+        if (!in_front(from)) return {};
+        const SphericalRectangle seen(rectangle_, Vec3d(from));
+        if (seen.solid_angle() < smallest_solid_angle) return AreaLight::sample(from, u, w);
+        const Vec3d d = seen.sample(u);
+        const double distance = length(d);
+        return {Vec3f(d * (1.0 / distance)), static_cast<float>(distance), radiance_->eval({}, w),
+                static_cast<float>(1.0 / seen.solid_angle())};
+    }
+
+    float pdf(const Point3f& from, const Vec3f& wi, const SurfacePoint* on_light) const override {
+        if (!on_light || !in_front(from)) return 0.f;
+        const SphericalRectangle seen(rectangle_, Vec3d(from));
+        if (seen.solid_angle() < smallest_solid_angle) return AreaLight::pdf(from, wi, on_light);
+        return static_cast<float>(1.0 / seen.solid_angle());
+    }
+
+  private:
+    /// Below this (a square of 0.6 degrees) points drawn by area differ little from points drawn by
+    /// solid angle, and cost less.
+    static constexpr double smallest_solid_angle = 1e-4;
+
+    bool in_front(const Point3f& from) const {
+        return dot(Vec3d(from) - rectangle_.corner, Vec3d(normal_)) > 0.0;
+    }
+
+    Rectangle rectangle_;
+    Vec3f normal_;
+};
+
+}  // namespace
+
+LightPtr make_area_light(const SceneNode& node, const RayScene& rays, std::uint32_t shape,
+                         BuildContext& context) {
+    if (node.type != "area")
+        node.fail(fmt::format("unknown emitter type '{}' of a shape{}", node.type,
+                              suggestion(node.type, {"area"})));
+    if (!(rays.area(shape) > 0.0)) node.fail("the shape of an area light has no area");
+    // Shapes that are drawn by solid angle do not know the texture coordinates of the drawn point.
+    if (node.child("radiance", "texture"))
+        return std::make_shared<AreaLight>(
+            get_texture(node, "radiance", ColorRole::illuminant, 1.f, context), rays, shape);
+    const TexturePtr radiance = make_constant_texture(
+        get_spectrum(node, "radiance", ColorRole::illuminant, default_emission()));
+    if (const Primitive* primitive = rays.primitive(shape))
+        if (const Sphere* sphere = std::get_if<Sphere>(primitive))
+            return std::make_shared<SphereLight>(radiance, rays, shape, *sphere);
+    if (const Mesh* mesh = rays.mesh(shape))
+        if (const auto rectangle = as_rectangle(*mesh))
+            return std::make_shared<RectangleLight>(radiance, rays, shape, *rectangle);
+    return std::make_shared<AreaLight>(radiance, rays, shape);
+}
+
+}  // namespace nacre
