@@ -1,6 +1,8 @@
 #pragma once
 // The film: per pixel the sum, the sum of squares and the number of samples, and what went wrong.
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "nacre/math/vec.h"
@@ -10,48 +12,67 @@ namespace nacre {
 
 /// A sample that is not a number, infinite or negative: never hidden, never added.
 struct InvalidSample {
-    int x, y;
+    int x, y;  ///< of the full film
     std::uint32_t sample;
     Vec3f value;
 };
 
 /// Linear RGB means with variances. Each pixel is written by one thread at a time (a tile), so no
 /// locks are needed. Reconstruction filters are applied by drawing the film position from the
-/// filter (filter importance sampling: Ernst, Stamminger, Greiner 2006), so a sample belongs to one
-/// pixel only.
+/// filter (filter.h), so a sample belongs to one pixel only.
+///
+/// Samples of a filter with negative lobes carry a weight of +W or -W, where W is the integral of
+/// the filter's absolute value. Adding +-W v would make even a constant picture noisy and dividing
+/// by the sum of the weights would divide by zero in one pixel of ten at two samples. Instead the
+/// positive and the negative lobes are averaged apart and the pixel is (W + 1)/2 times the former
+/// mean minus (W - 1)/2 times the latter (post-stratification; Cochran 1977, Sampling Techniques,
+/// 5A.9): unbiased given that both have samples, and exact for a constant picture.
 class Film {
   public:
+    /// Throws InputError if the film or its crop window has no area or the window leaves the film.
     explicit Film(const FilmSettings& settings);
 
     int width() const { return width_; }  ///< of the crop window
     int height() const { return height_; }
     const FilmSettings& settings() const { return settings_; }
 
-    /// Adds a sample to pixel (x, y) of the crop window. Invalid samples are counted and located
-    /// instead.
-    void add(int x, int y, std::uint32_t sample, const Vec3f& rgb, float filter_weight);
+    /// Adds a sample to pixel (x, y) of the crop window. Samples that are not finite, and negative
+    /// ones unless `may_be_negative` (a colour estimated from few wavelengths may be), are counted
+    /// and located instead.
+    void add(int x, int y, std::uint32_t sample, const Vec3f& rgb, float filter_weight,
+             bool may_be_negative = false);
+    /// Counts and locates a sample that the caller found to be invalid.
+    void add_invalid(int x, int y, std::uint32_t sample, const Vec3f& value);
 
+    /// Zero without samples.
     Vec3f mean(int x, int y) const;
     /// Unbiased estimate of the variance of one sample; divide by `count` for the variance of the
-    /// mean.
+    /// mean. Zero below two samples.
     Vec3f sample_variance(int x, int y) const;
+    /// Valid samples.
     std::uint32_t count(int x, int y) const;
 
     std::uint64_t invalid_count() const;
-    /// The first few invalid samples in pixel order.
+    /// The first invalid samples in the order of rows, columns and samples; at most 16.
     std::vector<InvalidSample> invalid_samples() const;
 
   private:
-    struct Pixel {
+    struct Sums {
         double sum[3]{}, sum2[3]{};
-        double weight = 0;
         std::uint32_t count = 0;
         std::uint32_t invalid = 0;
+        double mean(int c) const { return count ? sum[c] / count : 0; }
+        double variance(int c) const;
     };
+    std::size_t index(int x, int y) const { return std::size_t(y) * width_ + x; }
+
     FilmSettings settings_;
     int width_, height_;
-    std::vector<Pixel> pixels_;
+    double absolute_integral_;  ///< W of the filter
+    std::vector<Sums> pixels_;
+    std::vector<Sums> negative_;  ///< samples of negative lobes; empty if the filter has none
     std::vector<InvalidSample> invalid_;
+    std::unique_ptr<std::mutex> invalid_mutex_;  ///< apart, so that a film can be moved
 };
 
 }  // namespace nacre

@@ -30,7 +30,18 @@ struct RenderResult {
     RayCounts counts;
 };
 
-/// Renders the scene. The same scene and seed give the same bits for any number of threads.
+/// Renders the scene. The same scene and seed give the same bits for any number of threads, and a
+/// pixel has the same bits in a crop window as in the whole film.
+///
+/// What the film holds (scene.film.quantity): radiance, linear RGB; luminance, cd/m^2 in all three
+/// channels, where a radiance of 1 is 1 W m^-2 sr^-1 nm^-1 at every wavelength; illuminance, the
+/// lux that a surface facing the pixel's direction receives from within the pixel (luminance times
+/// the pixel's solid angle as seen from the middle of the lens), so that the sum over a region
+/// around a lamp is the lux from that lamp. Throws InputError if illuminance is asked of a camera
+/// whose rays are parallel.
 RenderResult render(const Scene& scene, const RenderOptions& options = {});
+/// The same with a given integrator in place of the one that the scene names.
+RenderResult render(const Scene& scene, const Integrator& integrator,
+                    const RenderOptions& options = {});
 
 }  // namespace nacre
