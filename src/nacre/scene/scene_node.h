@@ -2,6 +2,8 @@
 // One object of a scene file (<bsdf type="diffuse">...), read but not yet built: its parameters
 // with their place in the file. Whoever builds the object asks for the parameters it knows; what
 // nobody asked for is an error, so a misspelt parameter never passes silently.
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -45,8 +47,8 @@ using SceneNodePtr = std::shared_ptr<const SceneNode>;
 
 class SceneNode {
   public:
-    std::string tag;  ///< scene, bsdf, shape, emitter, sensor, film, rfilter, sampler, integrator,
-                      ///< medium, phase, volume, texture, subsurface
+    std::string tag;   ///< scene, bsdf, shape, emitter, sensor, film, rfilter, sampler, integrator,
+                       ///< medium, phase, volume, texture, subsurface
     std::string type;  ///< the attribute `type`
     std::string id;    ///< the attribute `id`, may be empty
     SourceLocation location;
@@ -62,7 +64,7 @@ class SceneNode {
 
     // Each getter marks the parameter as known. The first form requires it, the second has a
     // default; a value of another type is an error that names both types (integers are accepted
-    // where floats are asked for).
+    // where floats are asked for, and where integers are asked for only integers).
     bool has(std::string_view name) const;
     double get_float(std::string_view name) const;
     double get_float(std::string_view name, double otherwise) const;
@@ -91,17 +93,26 @@ class SceneNode {
     [[noreturn]] void fail_at(std::string_view name, const std::string& message) const;
     /// Throws if a parameter or child was never asked for, naming it and the nearest known name.
     void check_all_used() const;
+    /// How messages name the object: `<bsdf type="diffuse">`.
+    std::string describe() const;
 
   private:
     const SceneValue* find(std::string_view name) const;
+    [[noreturn]] void fail_type(const SceneValue& value, std::string_view expected) const;
+    [[noreturn]] void fail_missing(std::string_view name, std::string_view expected) const;
+
     mutable std::set<std::string, std::less<>> known_;  ///< names asked for, for suggestions
     mutable std::set<const Child*> used_children_;
+    mutable std::map<std::string, ColorValue, std::less<>> constants_;  ///< floats as colours
 };
 
+/// "an integer", "a float": the word with its article.
+std::string with_article(std::string_view noun);
 /// The nearest of `known` to `word` by edit distance, if near enough to be a plausible misspelling;
 /// else empty.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
-/// "; did you mean 'x'?" or, if nothing is near, "; known are: a, b, c".
+/// "; did you mean 'x'?" or, if nothing is near, "; known are: a, b, c" (empty if nothing is
+/// known).
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace nacre
