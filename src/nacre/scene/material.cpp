@@ -14,8 +14,10 @@ struct MaterialType {
 };
 
 constexpr MaterialType types[] = {
+    {"dielectric", make_dielectric},
     {"diffuse", make_diffuse},
     {"null", make_null},
+    {"thindielectric", make_thindielectric},
 };
 
 std::vector<std::string> type_names() {
@@ -49,24 +51,23 @@ std::optional<float> value_outside_unit(const ColorValue& color) {
 
 TexturePtr get_reflectance(const SceneNode& node, std::string_view name, float otherwise,
                            BuildContext& context) {
+    const auto refuse = [&](float value) {
+        node.fail_at(name, fmt::format("'{}' of {} must lie within [0, 1], lest energy appear from "
+                                       "nowhere; got {}",
+                                       name, node.describe(), value));
+    };
     if (!node.child(name, "texture")) {
         if (const ColorValue* color = node.get_color(name)) {
             if (color->kind == ColorValue::Kind::blackbody)
-                node.fail_at(name, fmt::format("'{}' is a reflectance, so it cannot be a blackbody "
-                                               "emission; give a colour within [0, 1]",
-                                               name));
-            if (const auto value = value_outside_unit(*color))
-                node.fail_at(name, fmt::format("'{}' must lie within [0, 1] to conserve energy, "
-                                               "but has the value {}",
-                                               name, *value));
+                node.fail_at(name, fmt::format("'{}' of {} is a reflectance, not an emission; give "
+                                               "a colour within [0, 1] instead of a blackbody",
+                                               name, node.describe()));
+            if (const auto value = value_outside_unit(*color)) refuse(*value);
         }
     }
     TexturePtr texture = get_texture(node, name, ColorRole::reflectance, otherwise, context);
-    // A uniform white spectrum may exceed one by rounding.
-    if (!(texture->max() <= 1.f + 1e-5f))
-        node.fail_at(name, fmt::format("'{}' must lie within [0, 1] to conserve energy, but its "
-                                       "texture reaches {}",
-                                       name, texture->max()));
+    // Bounds of uplifted colours may exceed one by rounding.
+    if (!(texture->max() <= 1.f + 1e-5f)) refuse(texture->max());
     return texture;
 }
 
@@ -75,7 +76,7 @@ std::vector<MaterialPtr> nested_materials(const SceneNode& node, std::size_t lea
     const auto children = node.children_of("bsdf");
     if (children.size() < least || children.size() > most)
         node.fail(fmt::format(
-            "a material of type '{}' takes {} nested <bsdf>, but {} given", node.type,
+            "{} takes {} nested <bsdf>, but {} given", node.describe(),
             least == most ? std::to_string(least) : fmt::format("{} or {}", least, most),
             children.size() == 1 ? "1 is" : fmt::format("{} are", children.size())));
     std::vector<MaterialPtr> materials;

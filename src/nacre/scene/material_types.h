@@ -6,7 +6,9 @@
 namespace nacre {
 
 MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_dielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_null(const SceneNode& node, BuildContext& context);
+MaterialPtr make_thindielectric(const SceneNode& node, BuildContext& context);
 
 /// The texture of parameter `name`, a reflectance or transmittance: throws unless every value lies
 /// in [0, 1], since anything else would make or destroy energy.
