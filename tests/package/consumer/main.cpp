@@ -1,4 +1,5 @@
-// The smallest program that uses the library: transmittance of 0, 1, 2 and 3 mm of a medium with sigma_t = 1/mm.
+// The smallest program that uses the library: transmittance of 0, 1, 2 and 3 mm of a medium with
+// sigma_t = 1/mm.
 #include <nacre/math/lanes_math.h>
 
 #include <cmath>
