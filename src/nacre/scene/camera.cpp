@@ -223,7 +223,11 @@ CameraPtr make_camera(const SceneNode& node, float aspect, BuildContext&) {
     for (const auto& [name, factory] : factories) {
         if (name == node.type) {
             accept_shutter(node);
-            return factory(node, aspect);
+            CameraPtr camera = factory(node, aspect);
+            // Read by whoever builds the rest of the scene.
+            for (const char* tag : {"film", "sampler", "medium"}) node.children_of(tag);
+            node.check_all_used();
+            return camera;
         }
         known.emplace_back(name);
     }

@@ -24,7 +24,11 @@ LightPtr make_light(const SceneNode& node, BuildContext& context) {
         node.fail("an area light belongs to a shape: put <emitter type=\"area\"> inside a <shape>");
     std::vector<std::string> known;
     for (const auto& [name, factory] : factories) {
-        if (name == node.type) return factory(node, context);
+        if (name == node.type) {
+            LightPtr light = factory(node, context);
+            node.check_all_used();
+            return light;
+        }
         known.emplace_back(name);
     }
     node.fail(fmt::format("unknown emitter type '{}'{}", node.type, suggestion(node.type, known)));

@@ -154,11 +154,13 @@ LightPtr make_area_light(const SceneNode& node, const RayScene& rays, std::uint3
                               suggestion(node.type, {"area"})));
     if (!(rays.area(shape) > 0.0)) node.fail("the shape of an area light has no area");
     // Shapes that are drawn by solid angle do not know the texture coordinates of the drawn point.
-    if (node.child("radiance", "texture"))
-        return std::make_shared<AreaLight>(
-            get_texture(node, "radiance", ColorRole::illuminant, 1.f, context), rays, shape);
-    const TexturePtr radiance = make_constant_texture(
-        get_spectrum(node, "radiance", ColorRole::illuminant, default_emission()));
+    const bool textured = node.child("radiance", "texture") != nullptr;
+    const TexturePtr radiance =
+        textured ? get_texture(node, "radiance", ColorRole::illuminant, 1.f, context)
+                 : make_constant_texture(
+                       get_spectrum(node, "radiance", ColorRole::illuminant, default_emission()));
+    node.check_all_used();
+    if (textured) return std::make_shared<AreaLight>(radiance, rays, shape);
     if (const Primitive* primitive = rays.primitive(shape))
         if (const Sphere* sphere = std::get_if<Sphere>(primitive))
             return std::make_shared<SphereLight>(radiance, rays, shape, *sphere);

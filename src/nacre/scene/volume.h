@@ -10,7 +10,9 @@ namespace nacre {
 class Volume {
   public:
     virtual ~Volume() = default;
-    /// Value at a world-space point; zero outside the volume's bounds.
+    /// Value at a world-space point. Outside of `bounds` a coefficient is zero, while an albedo
+    /// goes on as at the edge (or as its wrap mode says): the medium ends where its extinction
+    /// ends.
     virtual Spectral eval(const Point3f& p, const Wavelengths& wavelengths) const = 0;
     /// Largest value anywhere, any wavelength.
     virtual float max() const = 0;
@@ -20,7 +22,7 @@ class Volume {
         (void)box;
         return max();
     }
-    /// World-space bounds outside of which the value is zero.
+    /// World-space bounds of the data.
     virtual Box3f bounds() const = 0;
 };
 using VolumePtr = std::shared_ptr<const Volume>;
