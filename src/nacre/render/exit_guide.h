@@ -1,0 +1,97 @@
+#pragma once
+// Guided exits: at a collision below a smooth dielectric boundary, a direction that leads out of
+// the object towards a light, for the connection that next-event estimation cannot make because the
+// boundary refracts.
+//
+// The proposal chooses one of four planes that stand for the boundary nearby, a light, and a
+// direction outside towards that light as seen from the collision, and refracts it inwards through
+// the plane. The path so proposed is traced for real; the proposal only has to have a density, and
+// the density of the random walk's own exits is combined with it by the balance heuristic. Proposal
+// and probability of proposing are functions of the collision's position alone, never of the path's
+// history, so that the density can be evaluated for exits that the walk found by itself.
+//
+// Unpublished; near relatives are Walter et al. 2009 (Single Scattering in Refractive Media with
+// Triangle Mesh Boundaries) and manifold next-event estimation (Hanika, Droske, Fascione 2015),
+// which solve for the exact connection.
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nacre/math/random.h"
+#include "nacre/render/distance_grid.h"
+#include "nacre/scene/scene.h"
+
+namespace nacre {
+
+/// An area that shines: what directions are proposed towards. A stand-in for the light; it need not
+/// match its shape.
+struct GuideTarget {
+    Point3f center;
+    Vec3f u, v;        ///< half axes of a parallelogram; both zero for a sphere
+    Vec3f normal;      ///< unit normal of the parallelogram, on the side that shines
+    float radius = 0;  ///< of the sphere
+    float radiance = 0;
+
+    float area() const;
+    /// Density per solid angle, from y, of `sample`.
+    float pdf(const Point3f& y, const Vec3f& direction) const;
+    Vec3f sample(const Point3f& y, Random& random) const;
+};
+
+class ExitGuide {
+  public:
+    ExitGuide() = default;
+    /// Guides paths in `medium` out through `boundary` (shapes), all of which are smooth boundaries
+    /// of relative index `eta`. Marks the cells of `grid` near the boundary. Without lights worth
+    /// guiding to, `active` is false.
+    ExitGuide(const Scene& scene, const Medium& medium, std::span<const std::uint32_t> boundary,
+              float eta, DistanceGrid& grid);
+
+    bool active() const { return !cells_.empty() && !targets_.empty(); }
+    std::size_t memory() const { return cells_.size() * sizeof(Cell); }
+
+    static constexpr int max_targets = 4;
+
+    /// The proposal at one collision.
+    class Proposal {
+      public:
+        /// Probability of making a proposal at all.
+        float probability() const { return probability_; }
+        /// A direction inside, towards the boundary; empty if the proposal failed (its density is
+        /// then lost, which is part of the density and needs no correction).
+        std::optional<Vec3f> sample(Random& random) const;
+        /// Density of `sample` per solid angle inside.
+        float pdf(const Vec3f& direction) const;
+
+      private:
+        friend class ExitGuide;
+        const ExitGuide* guide_ = nullptr;
+        const Vec3f* normals_ = nullptr;
+        Point3f y_;
+        float probability_ = 0.f;
+        std::array<float, max_targets> choice_{};  // probability of each target
+    };
+    /// `cell` is the index that the grid holds for the cell of y; it must not be -1.
+    Proposal at(const Point3f& y, std::int32_t cell) const;
+
+  private:
+    static constexpr int planes = 4;
+    /// The nearest plane counts most; the others catch light that leaves through the facets around
+    /// it.
+    static constexpr std::array<float, planes> plane_weight{0.4f, 0.2f, 0.2f, 0.2f};
+
+    struct Cell {
+        std::array<Vec3f, planes> normals;
+        float offset;  // of the nearest plane: dot(normal, x) on it
+    };
+    float estimate(const GuideTarget& target, const Point3f& y, const Vec3f& normal,
+                   float depth) const;
+
+    std::vector<Cell> cells_;
+    std::vector<GuideTarget> targets_;
+    float eta_ = 1.f, sigma_t_ = 0.f;
+    float reference_ = 1.f;  // estimate at which a proposal is certain
+};
+
+}  // namespace nacre

@@ -1,0 +1,20 @@
+#include "nacre/render/integrator.h"
+
+#include <fmt/format.h>
+
+#include "nacre/math/error.h"
+#include "nacre/render/path_tracer.h"
+#include "nacre/render/volume_path_tracer.h"
+
+namespace nacre {
+
+std::unique_ptr<Integrator> make_integrator(const Scene& scene) {
+    const std::string& type = scene.integrator.type;
+    if (type == "ray") return std::make_unique<PathTracer>(scene, true);
+    if (type == "path") return std::make_unique<PathTracer>(scene, false);
+    if (type == "volpath") return std::make_unique<VolumePathTracer>(scene);
+    throw InputError(
+        fmt::format("integrator '{}' is not known; known are: ray, path, volpath", type));
+}
+
+}  // namespace nacre

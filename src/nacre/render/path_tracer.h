@@ -1,0 +1,41 @@
+#pragma once
+// Monte Carlo path tracing among surfaces (Kajiya 1986) with next-event estimation and multiple
+// importance sampling (Veach and Guibas 1995, balance heuristic), and recursive ray tracing
+// (Whitted 1980) as its restriction to mirrors, refraction and direct light. Participating media
+// are the business of volume_path_tracer.h.
+#include "nacre/render/integrator.h"
+#include "nacre/render/light_chooser.h"
+
+namespace nacre {
+
+class PathTracer : public Integrator {
+  public:
+    /// Which estimators of direct light are used; switching one off is for tests and teaching.
+    enum class Estimators { both, material_only, light_only };
+
+    /// `recursive_only`: paths go on only at mirrors and smooth boundaries, as in Whitted's
+    /// algorithm.
+    PathTracer(const Scene& scene, bool recursive_only, Estimators estimators = Estimators::both);
+
+    Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
+                      RayCounts& counts) const override;
+
+  private:
+    Spectral direct_light(const SurfacePoint& at, const Material& material, const Vec3f& wo,
+                          Sampler& sampler, const Wavelengths& wavelengths,
+                          RayCounts& counts) const;
+
+    const Scene& scene_;
+    LightChooser lights_;
+    bool recursive_only_;
+    Estimators estimators_;
+    bool has_null_ = false;
+};
+
+/// Share of light that a shadow ray from `origin` along `direction` keeps until `distance`: 0
+/// behind opaque surfaces, the product of null transmissions otherwise. Media are not considered.
+Spectral surface_transmittance(const Scene& scene, bool scene_has_null, Point3f origin,
+                               const Vec3f& direction, float distance,
+                               const Wavelengths& wavelengths, RayCounts& counts);
+
+}  // namespace nacre

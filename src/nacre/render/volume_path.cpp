@@ -1,0 +1,239 @@
+#include "nacre/render/volume_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nacre/render/roulette.h"
+#include "nacre/render/walk.h"
+
+namespace nacre {
+
+namespace {
+
+// So many collisions are walked before anything else (roulette, spectral weights) is thought about.
+constexpr std::uint32_t walk_chunk = 64;
+
+}  // namespace
+
+struct VolumePath::WalkSurroundings {
+    VolumePath& path;
+    const VolumePathTracer::MediumInfo& info;
+    const MediumLanes& lanes;
+    std::optional<Hit> hit{};
+
+    DistanceGrid::Cell locate(const Point3f& p) const { return info.grid.locate(p); }
+
+    bool surface(const Point3f& p, const Vec3f& d, float s, float& t) {
+        ++path.counts_.rays;
+        hit = path.scene_.rays.intersect({p, d, 0.f, s});
+        if (hit) t = hit->t;
+        return hit.has_value();
+    }
+
+    void collided(const Walker& w, const DistanceGrid::Cell& cell) {
+        if (cell.guide < 0 || !path.within_depth(static_cast<int>(w.collisions) + 1)) return;
+        const ExitGuide::Proposal proposal = info.guide.at(w.p, cell.guide);
+        if (!(path.sampler_.random().next() < proposal.probability())) return;
+        path.guided_exit(proposal, w, lanes);
+    }
+};
+
+VolumePath::VolumePath(const VolumePathTracer& tracer, const Ray& ray, Sampler& sampler,
+                       const Wavelengths& wavelengths, RayCounts& counts)
+    : tracer_(tracer),
+      scene_(tracer.scene_),
+      sampler_(sampler),
+      wavelengths_(wavelengths),
+      counts_(counts),
+      max_depth_(tracer.scene_.integrator.max_depth),
+      hero_(draw_hero(wavelengths, sampler)),
+      ray_(ray),
+      medium_(tracer.scene_.camera_medium) {}
+
+Spectral VolumePath::trace() {
+    while (within_depth(0)) {
+        const Event event = travel();
+        if (event == Event::ended) break;
+        if (event == Event::escaped) {
+            if (scene_.environment && !(depth_ == 0 && scene_.integrator.hide_emitters))
+                add_emission(*scene_.environment, nullptr);
+            break;
+        }
+        if (!(event == Event::surface ? at_surface() : at_collision())) break;
+    }
+    return result_;
+}
+
+VolumePath::Event VolumePath::travel() {
+    if (medium_) return medium_->homogeneous() ? travel_homogeneous() : travel_heterogeneous();
+    ++counts_.rays;
+    hit_ = scene_.rays.intersect(ray_);
+    return hit_ ? Event::surface : Event::escaped;
+}
+
+VolumePath::Event VolumePath::travel_homogeneous() {
+    const MediumLanes lanes(medium_->coefficients(ray_.o, wavelengths_), wavelengths_, hero_);
+    if (!(lanes.hero_sigma > 0.f)) {
+        ++counts_.rays;
+        hit_ = scene_.rays.intersect(ray_);
+        density_ *= lanes.transmittance(hit_ ? hit_->t : 1e30f);
+        return hit_ ? Event::surface : Event::escaped;
+    }
+    const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
+    WalkSurroundings surroundings{*this, info, lanes};
+    Walker walker{ray_.o, ray_.d, ray_.d, sampler_.random()};
+    for (;;) {
+        const std::uint32_t left =
+            max_depth_ < 0 ? walk_chunk : static_cast<std::uint32_t>(max_depth_ - depth_);
+        walker.collisions = 0;
+        walker.length = 0.f;
+        const WalkEnd end = walk(walker, lanes.hero_sigma, medium_->phase,
+                                 info.connect ? 1 : std::min(walk_chunk, left), surroundings);
+        sampler_.random() = walker.random;
+        counts_.scatterings += walker.collisions;
+        depth_ += static_cast<int>(walker.collisions);
+        ray_ = {walker.p, walker.d};
+        if (walker.collisions > 0) {
+            throughput_ *= lanes.survival(walker.collisions);
+            density_ *= lanes.walk_density(walker.collisions, walker.length);
+            partner_ = Partner::none;
+            last_collision_ = {true, walker.p, walker.d_in, density_};
+        }
+        if (end == WalkEnd::lost) return Event::ended;
+        if (end == WalkEnd::surface) {
+            hit_ = surroundings.hit;
+            density_ *= lanes.transmittance(walker.free_path);
+            return Event::surface;
+        }
+        if (info.connect) return Event::collision;
+        if (!within_depth(0)) return Event::ended;
+        // Deep in a walk only faint paths are put to the roulette, and a white one never: it will
+        // find its way out.
+        const float weight = relative_weight();
+        const float chance =
+            std::min(1.f, depth_ > scene_.integrator.rr_depth ? weight : 16.f * weight);
+        if (chance < 1.f) {
+            if (!(walker.random.next() < chance)) return Event::ended;
+            throughput_ *= Spectral(1.f / chance);
+        }
+        walker.d_in = walker.d;
+        walker.d = medium_->phase.sample(walker.d, walker.random.next2());
+        last_collision_.d_in = walker.d_in;
+    }
+}
+
+VolumePath::Event VolumePath::travel_heterogeneous() {
+    ++counts_.rays;
+    hit_ = scene_.rays.intersect(ray_);
+    const float end = hit_ ? hit_->t : 1e30f;
+    Random& random = sampler_.random();
+    // Delta tracking (Woodcock 1965) with the hero's probabilities; a majorant common to all lanes
+    // keeps the density of the tentative collisions out of the book-keeping.
+    MajorantSegments segments(tracer_.info(medium_).majorants, *medium_, ray_, end, wavelengths_);
+    float t = 0.f;
+    while (const auto segment = segments.next()) {
+        t = std::max(t, segment->begin);
+        if (!(segment->majorant > 0.f)) continue;
+        for (;;) {
+            t += -fast_log(1.f - random.next()) / segment->majorant;
+            if (t >= segment->end) break;
+            const Point3f p = ray_.o + ray_.d * t;
+            const MediumCoefficients c = medium_->coefficients(p, wavelengths_);
+            const Spectral real = c.sigma_t * Spectral(1.f / segment->majorant);
+            if (random.next() >= real[hero_]) {
+                density_ *= max(Spectral(0.f), Spectral(1.f) - real);
+                continue;
+            }
+            throughput_ *= select(c.sigma_t > Spectral(0.f),
+                                  c.sigma_s / max(c.sigma_t, Spectral(1e-30f)), Spectral(0.f));
+            density_ *= real;
+            density_ *= Spectral(1.f / max_lane(density_));
+            ++counts_.scatterings;
+            ++depth_;
+            ray_.o = p;
+            return Event::collision;
+        }
+        t = segment->end;
+    }
+    return hit_ ? Event::surface : Event::escaped;
+}
+
+bool VolumePath::at_collision() {
+    if (!within_depth(0)) return false;
+    connect_to_light(nullptr, nullptr, {});
+    if (depth_ > scene_.integrator.rr_depth && !roulette(sampler_.random().next())) return false;
+    const Vec3f d_in = ray_.d;
+    const Vec3f d = medium_->phase.sample(d_in, sampler_.random().next2());
+    partner_ = Partner::light_sampling;
+    partner_density_ = density_;
+    vertex_ = ray_.o;
+    vertex_pdf_ = medium_->phase.eval(dot(d_in, d));
+    ray_ = {ray_.o, d};
+    return true;
+}
+
+bool VolumePath::at_surface() {
+    const SurfacePoint at = scene_.rays.surface_point(ray_, *hit_);
+    const ShapeBinding& shape = scene_.shapes[hit_->shape];
+    if (shape.light && !(depth_ == 0 && scene_.integrator.hide_emitters))
+        add_emission(*shape.light, &at);
+
+    const Material& material = *shape.material;
+    const Vec3f wo = at.shading.to_local(-ray_.d);
+    if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &material, wo);
+
+    const float u1 = sampler_.next1d();
+    const auto sample = material.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
+    if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
+
+    const Vec3f direction = at.shading.to_world(sample->wi);
+    const float passing =
+        sample->null ? mean_of(material.null_transmission(at, wo, wavelengths_)) : 0.f;
+    if (passing > 0.f) {
+        // Straight through: the segment goes on, and so does the chance that next-event estimation
+        // had to make it.
+        throughput_ *= sample->weight * Spectral(sample->pdf / passing);
+        density_ *= Spectral(passing);
+        if (partner_ == Partner::guided_exit) partner_ = Partner::none;
+    } else {
+        ++depth_;
+        throughput_ *= sample->weight;
+        eta_ *= sample->eta;
+        vertex_ = at.p;
+        vertex_pdf_ = sample->pdf;
+        partner_density_ = density_;
+        partner_ = sample->delta ? Partner::none : Partner::light_sampling;
+        if (sample->delta && last_collision_.valid && sample->wi.z * wo.z < 0.f)
+            expect_guided_exit(sample->pdf);
+    }
+    last_collision_.valid = false;
+    if (sample->single_wavelength && !single_wavelength_) {
+        // The other lanes would have gone elsewhere: the hero goes on alone.
+        single_wavelength_ = true;
+        hero_ = 0;
+        density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
+        partner_density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
+    }
+    leave(at, direction);
+    return depth_ <= scene_.integrator.rr_depth || passing > 0.f || roulette(sampler_.next1d());
+}
+
+void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {
+    ray_ = {at.spawn(direction), direction};
+    const ShapeBinding& shape = scene_.shapes[at.shape];
+    if (shape.separates_media)
+        medium_ = dot(direction, at.ng) > 0.f ? shape.exterior : shape.interior;
+}
+
+float VolumePath::relative_weight() const {
+    return max_lane(throughput_ * density_) / std::max(1e-30f, mean_of(density_)) * eta_ * eta_;
+}
+
+bool VolumePath::roulette(float u) {
+    const float chance = std::min(0.95f, relative_weight());
+    if (!(u < chance)) return false;
+    throughput_ *= Spectral(1.f / chance);
+    return true;
+}
+
+}  // namespace nacre

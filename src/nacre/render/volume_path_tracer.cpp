@@ -1,0 +1,72 @@
+#include "nacre/render/volume_path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nacre/render/volume_path.h"
+
+namespace nacre {
+
+namespace {
+
+// The finest the distance grid gets: 192 cells along the longest side are about 40 MB.
+constexpr int max_grid_cells = 192;
+// Cells much smaller than a mean free path tell the walk nothing.
+constexpr float cell_in_free_paths = 0.5f;
+
+bool overlap(const Box3f& a, const Box3f& b) {
+    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+           b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+}  // namespace
+
+VolumePathTracer::VolumePathTracer(const Scene& scene)
+    : scene_(scene),
+      lights_(scene.lights),
+      has_null_(std::ranges::any_of(
+          scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {
+    for (const MediumPtr& medium : scene.media) prepare(*medium);
+}
+
+void VolumePathTracer::prepare(const Medium& medium) {
+    MediumInfo& info = media_[&medium];
+    if (!medium.homogeneous()) info.majorants = MajorantGrid(medium);
+    std::vector<std::uint32_t> boundary;
+    Box3f bounds;
+    bool refracts_everywhere = true, smooth = true;
+    float eta = 0.f;
+    for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) {
+        const ShapeBinding& shape = scene_.shapes[i];
+        // A medium on the outside of a shape, or around the camera, has no bounds that could be
+        // known.
+        if (shape.exterior == &medium) return;
+        if (shape.interior != &medium) continue;
+        boundary.push_back(i);
+        bounds.extend(scene_.rays.bounds(i));
+        refracts_everywhere &= !(shape.material->flags() & has_null);
+        const float this_eta = shape.material->smooth_boundary_eta();
+        smooth &= this_eta > 1.f && !shape.exterior && (eta == 0.f || this_eta == eta);
+        eta = this_eta;
+    }
+    if (boundary.empty() || scene_.camera_medium == &medium) return;
+
+    info.connect =
+        !refracts_everywhere || std::ranges::any_of(scene_.lights, [&](const LightPtr& light) {
+            return !light->bounds().empty() && overlap(light->bounds(), bounds);
+        });
+    if (!medium.homogeneous() || !scene_.integrator.distance_grid) return;
+    const Vec3f sigma_t = medium.sigma_t->rgb();
+    const float thickest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * medium.scale;
+    if (!(thickest > 0.f)) return;
+    info.grid = DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells);
+    if (scene_.integrator.guided_exits && smooth && !info.connect)
+        info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid);
+}
+
+Spectral VolumePathTracer::radiance(const Ray& ray, Sampler& sampler,
+                                    const Wavelengths& wavelengths, RayCounts& counts) const {
+    return VolumePath(*this, ray, sampler, wavelengths, counts).trace();
+}
+
+}  // namespace nacre
