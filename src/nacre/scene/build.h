@@ -30,6 +30,8 @@ struct BuildContext {
     std::map<const SceneNode*, MaterialPtr> materials;
     std::map<const SceneNode*, MediumPtr> media;
     std::map<std::pair<const SceneNode*, ColorRole>, TexturePtr> textures;
+    /// Meshes that are in memory already, by the shape that they stand for.
+    std::map<const SceneNode*, std::shared_ptr<Mesh>> meshes;
     /// Lights that need the finished scene's bounding sphere (directional, constant, envmap) get it
     /// here.
     Point3f scene_center;
@@ -40,6 +42,8 @@ struct BuildContext {
     std::filesystem::path file(const SceneNode& node, std::string_view name) const;
 };
 
+/// Throws InputError for negative values, and for a reflectance by a black body. Light given as one
+/// number or as RGB is D65 of that colour (as in Mitsuba 3).
 SpectrumPtr make_spectrum(const ColorValue& color, ColorRole role);
 /// Parameter `name` of `node` as a spectrum; `otherwise` if absent.
 SpectrumPtr get_spectrum(const SceneNode& node, std::string_view name, ColorRole role,

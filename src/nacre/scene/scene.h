@@ -1,5 +1,6 @@
 #pragma once
 // What a scene is, ready to render.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,9 @@ struct IntegratorSettings {
 };
 
 struct Scene {
-    RayScene rays;
+    /// Behind a pointer because lights refer to it: it stays where it is when the scene is moved.
+    std::unique_ptr<RayScene> rays_owner = std::make_unique<RayScene>();
+    RayScene& rays = *rays_owner;
     std::vector<ShapeBinding> shapes;  ///< one for each shape of `rays`
     std::vector<LightPtr> lights;
     const Light* environment =

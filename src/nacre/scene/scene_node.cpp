@@ -189,6 +189,7 @@ const ColorValue* SceneNode::get_color(std::string_view name) const {
     ColorValue constant;
     constant.kind = ColorValue::Kind::constant;
     constant.value = static_cast<float>(get_float(name));
+    constant.location = v->location;
     return &constants_.try_emplace(std::string(name), constant).first->second;
 }
 

@@ -31,6 +31,7 @@ struct ColorValue {
     float value = 0.f;              ///< constant: the value; blackbody: the scale
     float kelvin = 0.f;             ///< blackbody
     std::vector<float> nm, values;  ///< tabulated
+    SourceLocation location{};      ///< for messages; empty if made in memory
 };
 
 /// A parameter of an object.

@@ -159,6 +159,7 @@ class XmlReader {
         node.location = element.location;
         read_children(source, element.node, node);
         ColorValue color;
+        color.location = element.location;
         if (node.type == "uniform") {
             color.kind = ColorValue::Kind::constant;
             color.value = static_cast<float>(node.get_float("value", 1.0));

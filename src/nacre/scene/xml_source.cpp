@@ -195,10 +195,12 @@ std::string XmlParameters::substitute(std::string_view text, const SourceLocatio
             std::vector<std::string> known;
             for (const auto& entry : values_) known.push_back(entry.first);
             const std::string near = nearest_name(name, known);
+            const std::string mend = name.empty() ? std::string("a name must follow the '$'")
+                                     : near.empty()
+                                         ? fmt::format("give it by <default> or -D {}=...", name)
+                                         : fmt::format("did you mean '${}'?", near);
             throw InputError(
-                fmt::format("{}: the parameter '${}' is not defined; {}", where.str(), name,
-                            near.empty() ? fmt::format("give it by <default> or -D {}=...", name)
-                                         : fmt::format("did you mean '${}'?", near)));
+                fmt::format("{}: the parameter '${}' is not defined; {}", where.str(), name, mend));
         }
         out += best->second;
         used_.insert(best->first);

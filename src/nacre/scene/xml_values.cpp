@@ -292,6 +292,7 @@ SceneValue read_value(const XmlElement& element, const ValueContext& context) {
         if (tag == "rgb") out.value = rgb(element);
     }
     if (element.node.first_child()) element.fail(fmt::format("<{}> cannot hold anything", tag));
+    if (auto* color = std::get_if<ColorValue>(&out.value)) color->location = element.location;
     return out;
 }
 

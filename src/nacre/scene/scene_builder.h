@@ -1,0 +1,30 @@
+#pragma once
+// From a tree of nodes to a Scene, in parts. Used by the loaders only.
+#include <optional>
+
+#include "nacre/scene/build.h"
+#include "nacre/scene/scene.h"
+
+namespace nacre {
+
+IntegratorSettings read_integrator(const SceneNode& node);
+FilmSettings read_film(const SceneNode& node, BuildContext& context);
+SamplerSettings read_sampler(const SceneNode& node);
+
+/// The medium that `node` stands for, kept alive by the scene.
+const Medium* add_medium(const SceneNode& node, Scene& scene, BuildContext& context);
+
+/// Light of a shape that cannot be built before all shapes are known.
+struct PendingAreaLight {
+    const SceneNode* emitter;
+    std::uint32_t shape;
+};
+
+/// Adds the shape with its material and media to `scene`.
+void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
+               std::vector<PendingAreaLight>& lights);
+
+/// Builds everything. `mode` unset: RGB bands unless something in the scene is spectral.
+Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<ColorMode> mode);
+
+}  // namespace nacre
