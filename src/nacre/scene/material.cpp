@@ -14,10 +14,17 @@ struct MaterialType {
 };
 
 constexpr MaterialType types[] = {
+    {"conductor", make_conductor},
     {"dielectric", make_dielectric},
     {"diffuse", make_diffuse},
+    {"mask", make_mask},
     {"null", make_null},
+    {"plastic", make_plastic},
+    {"roughconductor", make_roughconductor},
+    {"roughdielectric", make_roughdielectric},
+    {"roughplastic", make_roughplastic},
     {"thindielectric", make_thindielectric},
+    {"twosided", make_twosided},
 };
 
 std::vector<std::string> type_names() {
@@ -56,15 +63,9 @@ TexturePtr get_reflectance(const SceneNode& node, std::string_view name, float o
                                        "nowhere; got {}",
                                        name, node.describe(), value));
     };
-    if (!node.child(name, "texture")) {
-        if (const ColorValue* color = node.get_color(name)) {
-            if (color->kind == ColorValue::Kind::blackbody)
-                node.fail_at(name, fmt::format("'{}' of {} is a reflectance, not an emission; give "
-                                               "a colour within [0, 1] instead of a blackbody",
-                                               name, node.describe()));
+    if (!node.child(name, "texture"))
+        if (const ColorValue* color = node.get_color(name))
             if (const auto value = value_outside_unit(*color)) refuse(*value);
-        }
-    }
     TexturePtr texture = get_texture(node, name, ColorRole::reflectance, otherwise, context);
     // Bounds of uplifted colours may exceed one by rounding.
     if (!(texture->max() <= 1.f + 1e-5f)) refuse(texture->max());

@@ -77,4 +77,14 @@ RelativeIndex::RelativeIndex(const SceneNode& node, std::string_view inside,
       nominal_(inside_.at(sodium_d) / outside_.at(sodium_d)),
       dispersive_(inside_.is_dispersive() || outside_.is_dispersive()) {}
 
+float get_relative_index(const SceneNode& node, std::string_view inside) {
+    const RelativeIndex index(node, inside);
+    if (index.is_dispersive())
+        node.fail(
+            fmt::format("{} takes one index of refraction for all wavelengths; only smooth "
+                        "dielectrics disperse light",
+                        node.describe()));
+    return index.nominal();
+}
+
 }  // namespace nacre

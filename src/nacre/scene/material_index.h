@@ -33,4 +33,7 @@ class RelativeIndex {
     bool dispersive_;
 };
 
+/// The same as one number; throws if it depends on wavelength.
+float get_relative_index(const SceneNode& node, std::string_view inside);
+
 }  // namespace nacre

@@ -5,10 +5,17 @@
 
 namespace nacre {
 
-MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_conductor(const SceneNode& node, BuildContext& context);
 MaterialPtr make_dielectric(const SceneNode& node, BuildContext& context);
+MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_mask(const SceneNode& node, BuildContext& context);
 MaterialPtr make_null(const SceneNode& node, BuildContext& context);
+MaterialPtr make_plastic(const SceneNode& node, BuildContext& context);
+MaterialPtr make_roughconductor(const SceneNode& node, BuildContext& context);
+MaterialPtr make_roughdielectric(const SceneNode& node, BuildContext& context);
+MaterialPtr make_roughplastic(const SceneNode& node, BuildContext& context);
 MaterialPtr make_thindielectric(const SceneNode& node, BuildContext& context);
+MaterialPtr make_twosided(const SceneNode& node, BuildContext& context);
 
 /// The texture of parameter `name`, a reflectance or transmittance: throws unless every value lies
 /// in [0, 1], since anything else would make or destroy energy.
