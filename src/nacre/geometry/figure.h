@@ -5,7 +5,8 @@
 
 namespace nacre {
 
-/// Signed distance (bound, mm) to the sculpture. y is up, the face looks along +z, the base stands
+/// Signed distance (mm) to the sculpture: close to it near the surface, of the right sign and rough
+/// elsewhere. y is up, the face looks along +z, the base stands
 /// on y = 0 and is centred on x = z = 0.
 float figure_distance(const Point3f& p);
 
@@ -13,8 +14,8 @@ float figure_distance(const Point3f& p);
 Box3f figure_box();
 
 /// The sculpture as a closed, manifold mesh with smooth normals, in mm. `resolution_mm` is the side
-/// of a lattice cell: 1.2 gives about 400,000 triangles; details go down to 2 mm.
+/// of a lattice cell: 1.6 gives about 390,000 triangles.
 /// @throws InputError unless 0.2 <= resolution_mm <= 8.
-Mesh make_figure(float resolution_mm = 1.2f);
+Mesh make_figure(float resolution_mm = 1.6f);
 
 }  // namespace nacre

@@ -120,6 +120,8 @@ class Lattice {
                 for (int x = 0; x < size_.x; ++x) {
                     const Index3 first{x * kSide, y * kSide, z * kSide};
                     int& b = map_[block_index(first)];
+                    const Index3 last = first + Index3{kSide - 1, kSide - 1, kSide - 1};
+                    if (b == kInside && (on_side(first) || on_side(last))) reject(first);
                     if (b != 0) continue;
                     b = int(blocks_.size());
                     blocks_.emplace_back().first = first;
@@ -135,14 +137,16 @@ class Lattice {
         for (const Block& b : blocks_)
             for (int c = 0; c < kCorners; ++c) {
                 const Index3 i = b.first + local_index(c);
-                if (b.value[std::size_t(c)] < 0.f && on_side(i)) {
-                    const Point3f p = position(i);
-                    throw InputError(fmt::format(
-                        "surface nets: the surface reaches the side of the box at ({:.4g}, {:.4g}, "
-                        "{:.4g}); give a larger box",
-                        p.x, p.y, p.z));
-                }
+                if (b.value[std::size_t(c)] < 0.f && on_side(i)) reject(i);
             }
+    }
+
+    [[noreturn]] void reject(Index3 i) const {
+        const Point3f p = position(i);
+        throw InputError(fmt::format(
+            "surface nets: the surface reaches the side of the box at ({:.4g}, {:.4g}, {:.4g}); "
+            "give a larger box",
+            p.x, p.y, p.z));
     }
 
     /// The corner of the cell to be turned inside so that the inside (and the outside) of the cell
@@ -190,8 +194,7 @@ class Lattice {
             });
             for (const auto& list : turned)
                 for (const Index3 i : list) {
-                    blocks_[std::size_t(map_[block_index(i)])].value[std::size_t(local(i))] =
-                        -1e-4f * cell_;
+                    blocks_[block_of(i)].value[std::size_t(local(i))] = -1e-4f * cell_;
                     again = true;
                 }
         }
@@ -221,7 +224,7 @@ class Lattice {
             b.slot[std::size_t(c)] = std::uint32_t(b.positions.size());
             const Point3f p = project(sum / float(crossings));
             b.positions.push_back(p);
-            b.normals.push_back(normalize(gradient(field_, p, kStep * cell_)));
+            b.normals.push_back(normal(p));
         }
     }
 
@@ -239,12 +242,26 @@ class Lattice {
         return p;
     }
 
+    /// Unit gradient; up where the field is flat, which no distance is.
+    Vec3f normal(const Point3f& p) const {
+        const Vec3f g = gradient(field_, p, kStep * cell_);
+        const float l = length(g);
+        return l > 1e-6f ? g / l : Vec3f(0, 1, 0);
+    }
+
+    std::size_t block_of(Index3 i) const {
+        const int b = map_[block_index(i)];
+        if (b < 0)
+            throw InputError(
+                "surface nets: the field changes faster than its Lipschitz bound says; raise it");
+        return std::size_t(b);
+    }
     std::uint32_t vertex(Index3 cell) const {
-        const Block& b = blocks_[std::size_t(map_[block_index(cell)])];
+        const Block& b = blocks_[block_of(cell)];
         return b.first_vertex + b.slot[std::size_t(local(cell))];
     }
     const Point3f& vertex_position(Index3 cell) const {
-        const Block& b = blocks_[std::size_t(map_[block_index(cell)])];
+        const Block& b = blocks_[block_of(cell)];
         return b.positions[b.slot[std::size_t(local(cell))]];
     }
 

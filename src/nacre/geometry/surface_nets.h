@@ -24,7 +24,8 @@ struct SurfaceNetsOptions {
 /// inside corners are made well-composed first (L. Latecki, "3D Well-Composed Pictures", 1997), so
 /// that no two parts of the surface meet in a cell. Features thinner than a cell may merge or
 /// vanish. The result does not depend on the number of threads.
-/// @throws InputError if a size is not positive or the surface reaches a side of the box.
+/// @throws InputError if a size is not positive, the surface reaches a side of the box, or the
+/// field is found to break its Lipschitz bound.
 Mesh surface_nets(const DistanceField& field, const SurfaceNetsOptions& options);
 
 /// Gradient of the field by differences over the four corners of a tetrahedron of size `step`.
