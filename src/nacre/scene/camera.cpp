@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "nacre/math/error.h"
+#include "nacre/math/warp.h"
 #include "nacre/scene/build.h"
 
 namespace nacre {
@@ -131,18 +132,6 @@ class Perspective final : public Camera {
     Film film_;
     Clip clip_;
 };
-
-/// Concentric map of the unit square to the unit disk: Shirley, Chiu 1997, A Low Distortion Map
-/// Between Disk and Square, Journal of Graphics Tools 2(3).
-Vec2f square_to_disk(Vec2f u) {
-    const float x = 2.f * u.x - 1.f, y = 2.f * u.y - 1.f;
-    if (x == 0.f && y == 0.f) return {0.f, 0.f};
-    constexpr float quarter = std::numbers::pi_v<float> / 4.f;
-    const bool wide = std::abs(x) > std::abs(y);
-    const float r = wide ? x : y;
-    const float phi = wide ? quarter * (y / x) : 2.f * quarter - quarter * (x / y);
-    return {r * std::cos(phi), r * std::sin(phi)};
-}
 
 class ThinLens final : public Camera {
   public:

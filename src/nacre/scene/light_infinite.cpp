@@ -1,6 +1,7 @@
 // Light from infinitely far away in every direction alike.
 #include <numbers>
 
+#include "nacre/math/sampling.h"
 #include "nacre/scene/light_types.h"
 #include "nacre/spectrum/color.h"
 
@@ -18,14 +19,10 @@ class ConstantLight final : public Light {
         : radiance_(std::move(radiance)), scene_radius_(scene_radius) {}
 
     LightSample sample(const Point3f&, Vec2f u, const Wavelengths& w) const override {
-        const float z = 1.f - 2.f * u.x;
-        const float r = std::sqrt(std::max(0.f, 1.f - z * z));
-        const float phi = 2.f * pi * u.y;
-        return {
-            {r * std::cos(phi), r * std::sin(phi), z}, 1e30f, radiance_->eval(w), 1.f / (4.f * pi)};
+        return {square_to_sphere(u), 1e30f, radiance_->eval(w), sphere_pdf<float>()};
     }
     float pdf(const Point3f&, const Vec3f&, const SurfacePoint*) const override {
-        return 1.f / (4.f * pi);
+        return sphere_pdf<float>();
     }
     Spectral radiance(const SurfacePoint*, const Vec3f&, const Wavelengths& w) const override {
         return radiance_->eval(w);
