@@ -2,6 +2,7 @@
 // byte order, any elements and properties in any order; what a mesh does not need is skipped.
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -154,10 +155,8 @@ class Body {
         }
         const std::size_t size = size_of(type);
         if (source_.bytes.size() - offset_ < size) truncated();
-        char raw[8];
-        std::memcpy(raw, source_.bytes.data() + offset_, size);
+        const char* raw = source_.bytes.data() + offset_;
         offset_ += size;
-        if (swap_) std::reverse(raw, raw + size);
         switch (type) {
             case Type::I8:
                 return as<std::int8_t>(raw);
@@ -197,10 +196,11 @@ class Body {
 
   private:
     template <class T>
-    static double as(const char* raw) {
-        T value;
-        std::memcpy(&value, raw, sizeof value);
-        return static_cast<double>(value);
+    double as(const char* raw) const {
+        std::array<char, sizeof(T)> bytes;
+        std::memcpy(bytes.data(), raw, sizeof(T));
+        if (swap_) std::reverse(bytes.begin(), bytes.end());
+        return static_cast<double>(std::bit_cast<T>(bytes));
     }
 
     const MeshSource& source_;
