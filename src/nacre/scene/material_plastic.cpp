@@ -146,11 +146,11 @@ MaterialPtr make_roughplastic(const SceneNode& node, BuildContext& context) {
     Roughness roughness = get_roughness(node, context);
     const double alpha = std::max(roughness.alpha_u->eval_scalar({}), 1e-4f);
     if (roughness.ggx) {
-        const auto boundary = RoughBoundary::compute(Ggx<double>{alpha, alpha}, parameters.eta);
+        const RoughBoundary boundary(Ggx<double>{alpha, alpha}, parameters.eta);
         return std::make_shared<RoughPlasticMaterial<Ggx<float>>>(std::move(parameters),
                                                                   std::move(roughness), boundary);
     }
-    const auto boundary = RoughBoundary::compute(Beckmann<double>{alpha, alpha}, parameters.eta);
+    const RoughBoundary boundary(Beckmann<double>{alpha, alpha}, parameters.eta);
     return std::make_shared<RoughPlasticMaterial<Beckmann<float>>>(std::move(parameters),
                                                                    std::move(roughness), boundary);
 }
