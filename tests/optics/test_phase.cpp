@@ -195,7 +195,7 @@ TEST(Phase, TurnsTheDirectionOfPropagation) {
     EXPECT_NEAR(length(d), 1.f, 1e-6f);
 }
 
-TEST(Phase, CostsTensOfNanosecondsAndNoVirtualCall) {
+TEST(Phase, IsASmallValue) {
     EXPECT_LE(sizeof(PhaseFunction), 16u);
     EXPECT_TRUE(std::is_trivially_copyable_v<PhaseFunction>);
 }

@@ -47,7 +47,7 @@ float dielectric_index(std::string_view name);
 std::span<const std::string_view> dielectric_names();
 
 /// The measured dispersion of a material: bk7 and n-sf11 (Schott 2017), fused quartz (Malitson
-/// 1965), diamond (Peter 1923), water at 25 C (Hale and Querry 1973). Throws InputError with the
+/// 1965), diamond (Peter 1923), water at 20 C (Quan and Fry 1995). Throws InputError with the
 /// list of names.
 DielectricIndex dispersive_dielectric(std::string_view name);
 std::span<const std::string_view> dispersive_names();

@@ -7,10 +7,10 @@
 // PhaseFunction is any one of them, chosen at run time without a virtual call, because a random
 // walk asks for one at every collision.
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string_view>
 
+#include "nacre/math/fast.h"
 #include "nacre/math/frame.h"
 #include "nacre/math/vec.h"
 #include "nacre/optics/phase_cornette_shanks.h"
@@ -73,8 +73,8 @@ class PhaseFunction {
     /// The propagation direction after a collision of light that travels along the unit vector d.
     Vec3f sample(const Vec3f& d, Vec2f u) const {
         const float c = sample_cos(u.x), s = std::sqrt(std::fmax(0.f, 1.f - c * c));
-        const float phi = 2.f * std::numbers::pi_v<float> * u.y;
-        const Vec3f out = Framef::around(d).to_world({s * std::cos(phi), s * std::sin(phi), c});
+        const Vec2f turn = fast_unit_circle(u.y);
+        const Vec3f out = Framef::around(d).to_world({s * turn.x, s * turn.y, c});
         // Rounding would let the length drift over the thousands of turns of a long walk; one
         // Newton step of 1 / length is enough.
         return out * (1.5f - 0.5f * dot(out, out));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "nacre/math/lanes_math.h"
+
 namespace nacre {
 
 namespace {
@@ -26,15 +28,15 @@ Wavelengths Wavelengths::rgb_bands() {
 }
 
 Wavelengths Wavelengths::sample(float u) {
-    Wavelengths w{ColorMode::spectral, {}, {}, Spectral(0.25f)};
-    for (int i = 0; i < 4; ++i) {
-        double v = u + 0.25 * i;
-        v -= std::floor(v);
-        const double lambda = centre + std::atanh(tanh_min + v * (tanh_max - tanh_min)) / width;
-        w.lambda.set(i, std::clamp(static_cast<float>(lambda), visible_min, visible_max));
-        w.pdf.set(i, wavelength_pdf(w.lambda[i]));
-    }
-    return w;
+    Spectral v = u + Spectral(0.f, 0.25f, 0.5f, 0.75f);
+    v = select(v >= Spectral(1.f), v - 1.f, v);
+    // lambda = centre + atanh(t) / width, and the density in terms of t is 1 - t^2 = sech^2.
+    const float low = static_cast<float>(tanh_min), range = static_cast<float>(tanh_max - tanh_min);
+    const Spectral t = low + v * range;
+    const Spectral lambda =
+        static_cast<float>(centre) + log((1.f + t) / (1.f - t)) * static_cast<float>(0.5 / width);
+    return {ColorMode::spectral, max(min(lambda, Spectral(visible_max)), Spectral(visible_min)),
+            static_cast<float>(width) / range * (1.f - t * t), Spectral(0.25f)};
 }
 
 Wavelengths Wavelengths::at(Spectral lambda) {
