@@ -3,35 +3,12 @@
 #include <bit>
 
 #include "nacre/math/error.h"
+#include "nacre/math/sobol.h"
 
 namespace nacre {
 namespace {
 
 constexpr float below_one = 0x1.fffffep-1f;
-
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-    x = __builtin_bswap32(x);
-    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
-    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
-    return (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
-}
-
-/// Nested uniform scrambling of a binary fraction by a hash in which every bit depends on the
-/// higher ones only (Laine and Karras 2011 with the constants of Burley 2020, section 3).
-constexpr std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
-    x = reverse_bits(x) + seed;
-    for (std::uint32_t even : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) x ^= x * even;
-    return reverse_bits(x);
-}
-
-/// Second dimension of Sobol's sequence (the first is the reversed index): its direction numbers
-/// follow from the primitive polynomial x + 1.
-constexpr std::uint32_t sobol_second(std::uint32_t i) {
-    std::uint32_t r = 0;
-    for (std::uint32_t v = 1u << 31; i; i >>= 1, v ^= v >> 1)
-        if (i & 1) r ^= v;
-    return r;
-}
 
 }  // namespace
 
@@ -77,10 +54,7 @@ void Sampler::start(std::uint64_t pixel, std::uint32_t sample_index) {
 float Sampler::next1d() {
     if (kind_ == Kind::independent) return random_.next();
     const std::uint64_t key = next_key();
-    if (kind_ == Kind::sobol) {
-        const std::uint32_t i = scramble(index_, static_cast<std::uint32_t>(key));
-        return to_unit_float(scramble(reverse_bits(i), static_cast<std::uint32_t>(key >> 32)));
-    }
+    if (kind_ == Kind::sobol) return sobol_owen(index_, 0, static_cast<std::uint32_t>(key));
     const std::uint32_t stratum = permute(index_ % samples_, samples_, key + index_ / samples_);
     return std::min((float(stratum) + random_.next()) / float(samples_), below_one);
 }
@@ -89,10 +63,8 @@ Vec2f Sampler::next2d() {
     if (kind_ == Kind::independent) return random_.next2();
     const std::uint64_t key = next_key();
     if (kind_ == Kind::sobol) {
-        const std::uint64_t seeds = mix_bits(key);
-        const std::uint32_t i = scramble(index_, static_cast<std::uint32_t>(key));
-        return {to_unit_float(scramble(reverse_bits(i), static_cast<std::uint32_t>(seeds))),
-                to_unit_float(scramble(sobol_second(i), static_cast<std::uint32_t>(seeds >> 32)))};
+        const auto seed = static_cast<std::uint32_t>(key);
+        return {sobol_owen(index_, 0, seed), sobol_owen(index_, 1, seed)};
     }
     const std::uint32_t cells = columns_ * rows_;
     const std::uint32_t cell = permute(index_ % samples_, cells, key + index_ / samples_);

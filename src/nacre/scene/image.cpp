@@ -170,10 +170,11 @@ Image read_image(const std::filesystem::path& file, const ImageReadOptions& opti
     const std::string bytes = read_file(file);
     const Format content = format_of_content(bytes);
     if (content == Format::unknown)
-        throw InputError(fmt::format("{}: is not a {} file: it does not begin like one",
-                                     file.string(), name(format)));
+        throw InputError(
+            fmt::format("{}: is not an image of the format {}: it does not begin like one",
+                        file.string(), name(format)));
     if (content != format)
-        throw InputError(fmt::format("{}: is a {} file with the extension of {}; rename it",
+        throw InputError(fmt::format("{}: holds {} data behind the extension of {}; rename it",
                                      file.string(), name(content), name(format)));
     try {
         switch (format) {

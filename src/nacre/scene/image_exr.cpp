@@ -2,6 +2,7 @@
 // stays out of the library's messages and an incomplete write is noticed by whoever writes the
 // bytes.
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -42,9 +43,12 @@ Image decode(const std::string& bytes) {
     });
     const double width = double(window.max.x) - window.min.x + 1,
                  height = double(window.max.y) - window.min.y + 1;
-    // The lossy codecs store a constant block of 8 x 8 pixels in a few bits, deflated once more.
+    // Deflate packs at most 1032 to 1; the DWA codecs store a constant block of 8 x 8 pixels in a
+    // few bits and deflate those once more.
+    const Imf::Compression codec = header.compression();
+    const bool dwa = codec == Imf::DWAA_COMPRESSION || codec == Imf::DWAB_COMPRESSION;
     check_size(width, height, static_cast<double>(names.size()), static_cast<double>(bytes.size()),
-               65536);
+               dwa ? 65536 : 1032);
     if (!file.isComplete()) throw InputError("is truncated: rows are missing; copy it again");
 
     Image image(static_cast<int>(width), static_cast<int>(height), names);

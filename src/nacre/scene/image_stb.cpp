@@ -9,7 +9,6 @@
 #define STBI_FAILURE_USERMSG
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
@@ -51,7 +50,9 @@ void store(Image& image, const Sample* pixels, bool raw) {
 Image decode_ldr(std::string_view bytes, bool raw) {
     // stb_image takes what is missing at the end of a file for zeros.
     const bool jpeg = bytes.starts_with("\xff\xd8");
-    if (bytes.rfind(jpeg ? std::string_view("\xff\xd9") : std::string_view("IEND")) == bytes.npos)
+    // (PNG: the last block is IEND and a checksum.)
+    const std::size_t end = jpeg ? bytes.rfind("\xff\xd9") : bytes.rfind("IEND");
+    if (end == bytes.npos || end + (jpeg ? 2 : 8) > bytes.size())
         throw InputError("is truncated: it has no end marker; copy it again");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT_MAX));
