@@ -20,7 +20,7 @@ float luminance(Vec3f linear_rgb);
 
 /// CIE XYZ to linear RGB and back. The matrix follows from the sRGB primaries (IEC 61966-2-1) and
 /// the white of the D65 table in cie.h, so that D65 is white to the last digit; it differs from the
-/// standard's four-digit matrix by less than 2e-4.
+/// standard's four-digit matrix by less than 3e-4.
 Vec3f xyz_to_rgb(Vec3f xyz);
 Vec3f rgb_to_xyz(Vec3f rgb);
 
