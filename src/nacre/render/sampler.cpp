@@ -1,7 +1,5 @@
 #include "nacre/render/sampler.h"
 
-#include <bit>
-
 #include "nacre/math/error.h"
 #include "nacre/math/sobol.h"
 
@@ -13,19 +11,16 @@ constexpr float below_one = 0x1.fffffep-1f;
 }  // namespace
 
 std::uint32_t permute(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
-    if (n < 2) return 0;
-    const int bits = std::bit_width(n - 1);
-    const std::uint32_t mask = bits == 32 ? ~0u : (1u << bits) - 1;
-    const int shift = std::max(1, bits / 2);
-    do {
-        std::uint64_t k = key;
-        for (int round = 0; round < 4; ++round) {
-            k = mix_bits(k + 0x9e3779b97f4a7c15ull);
-            i = (i ^ static_cast<std::uint32_t>(k)) & mask;
-            i = i * (static_cast<std::uint32_t>(k >> 32) | 1u) & mask;
-            i ^= i >> shift;
-        }
-    } while (i >= n);
+    // Each round pairs x with (shift - x) mod n and swaps the pair or not; an index that is swapped
+    // goes to a uniform place, so after 16 rounds all but 2^-16 of them are uniform.
+    for (int round = 0; round < 16; ++round) {
+        key = mix_bits(key + 0x9e3779b97f4a7c15ull);
+        const auto shift = static_cast<std::uint32_t>((key >> 32) * n >> 32);
+        const std::uint32_t partner = shift >= i ? shift - i : shift + n - i;
+        const std::uint32_t pair = std::max(i, partner);
+        const std::uint32_t coin = ((pair ^ static_cast<std::uint32_t>(key)) * 0x9e3779b1u) >> 31;
+        i = coin ? partner : i;
+    }
     return i;
 }
 

@@ -35,6 +35,8 @@ class Sampler {
     Vec2f next2d();
     Random& random() { return random_; }
     std::uint32_t sample_index() const { return index_; }
+    /// A number of the pixel's own, the same for all its samples.
+    std::uint64_t pixel_key() const { return pixel_key_; }
 
   private:
     /// A number that is the same for all samples of the pixel and differs between calls.
@@ -49,9 +51,8 @@ class Sampler {
     Random random_{0};
 };
 
-/// Where position i of 0..n-1 goes in a permutation chosen by `key`: a bijection of the next power
-/// of two, repeated until it falls below n (cycle walking; Black and Rogaway 2002, Ciphers with
-/// Arbitrary Finite Domains, CT-RSA).
+/// Where position i of 0..n-1 goes in a permutation chosen by `key`: the swap-or-not shuffle
+/// (Hoang, Morris, Rogaway 2012, An Enciphering Scheme Based on a Card Shuffle, CRYPTO).
 std::uint32_t permute(std::uint32_t i, std::uint32_t n, std::uint64_t key);
 
 }  // namespace nacre
