@@ -5,6 +5,21 @@
 namespace nacre::figure {
 using namespace sdf;
 
+namespace {
+
+// A robe over shoulders and breast: the body thickened below a hanging neckline, with folds that
+// hang as the neckline does.
+float robe(float body, const Point3f& p) {
+    const float hang = p.y - 0.0040f * square(p.x);  // constant along a fold
+    const float cloth = smoothstep(86, 82, hang);
+    if (cloth == 0.f) return body;
+    const float fold = rounded_wave(0.21f * hang + 0.5f * std::sin(0.035f * p.x));
+    const float roll = brush({hang, 0, 0}, {81, 0, 0}, {3.5f, 1, 1});  // the hem
+    return 0.9f * (body - cloth * (2.2f + 4.2f * fold * smoothstep(82, 64, hang) + 1.6f * roll));
+}
+
+}  // namespace
+
 float torso(const Point3f& p) {
     if (p.y > 300.f) return p.y - 278.f;  // above the neck, further off than any joint is wide
 
@@ -27,6 +42,8 @@ float torso(const Point3f& p) {
     chest = smooth_union(chest, breast, 30);
     d = smooth_union(d, chest, 34);
     d += 4.f * brush(p, {0, 110, 22}, {8, 10, 14});  // hollow of the throat
+
+    d = robe(d, p);
 
     // The cut, round below and flat at the arms: an upright cylinder that ends in half an egg.
     const Point3f cut{p.x, std::min(p.y - 132.f, 0.f), p.z + 30.f};

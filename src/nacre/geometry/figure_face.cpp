@@ -53,12 +53,12 @@ float eye(float d, const Point3f& p) {
 float mouth(float d, const Point3f& p) {
     if (length_squared(p - Vec3f(0, -70, 85)) > square(55)) return d;
     const float upper =
-        bezier_tube(p, {0, -65, 95}, {9, -62.5f, 96}, {25, -72, 81}, 3.6f, 4.2f, 1.5f);
+        bezier_tube(p, {0, -65, 95}, {9, -62.5f, 96}, {25, -71, 81}, 3.8f, 4.4f, 1.5f);
     const float lower =
-        bezier_tube(p, {0, -76.5f, 93}, {13, -77.5f, 93.5f}, {24, -72.5f, 81}, 5, 4.8f, 1.2f);
+        bezier_tube(p, {0, -76.5f, 93}, {13, -77.5f, 93.5f}, {24, -71.5f, 81}, 5, 4.8f, 1.2f);
     d = smooth_union(d, std::min(upper, lower), 6);
     const float slit =
-        bezier_tube(p, {0, -70.5f, 99.5f}, {12, -68.5f, 99}, {27, -73, 83}, 0.6f, 0.9f, 0.6f);
+        bezier_tube(p, {0, -70.5f, 99.5f}, {12, -68.5f, 99}, {27, -71.5f, 83}, 0.6f, 0.9f, 0.6f);
     d = smooth_subtraction(d, slit, 3.5f);
     d += 1.6f * brush(p, {0, -54, 97}, {4, 7, 9});     // philtrum
     d -= 0.8f * brush(p, {6, -57, 96}, {2.6f, 7, 9});  // its ridge

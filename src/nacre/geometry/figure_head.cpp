@@ -41,9 +41,6 @@ float ears(const Point3f& h) {
 
 namespace {
 
-// |sin| with its cusps rounded so that a mesh can follow them: 0.17 in the grooves, 1 on the backs.
-float rounded_wave(float phase) { return std::sqrt(0.97f * square(std::sin(phase)) + 0.03f); }
-
 // Positive where hair grows: behind the line from the forehead to the ears, above the nape, and not
 // around the root of the ear.
 float hairline(const Point3f& m) {
