@@ -10,12 +10,12 @@
 namespace nacre {
 namespace {
 
-// An edge as one number, smaller vertex first, and which triangle has it in which direction.
-struct Edge {
-    std::uint64_t ends;
-    std::uint32_t triangle;
-    bool forward;
-};
+// An edge as one number: smaller vertex, larger vertex, and in the lowest bit whether its triangle
+// runs from the smaller to the larger. 31 bits a vertex: more would be a mesh of 100 GiB.
+std::uint64_t edge(std::uint64_t from, std::uint64_t to) {
+    return std::min(from, to) << 32 | std::max(from, to) << 1 | (from < to);
+}
+std::uint64_t ends(std::uint64_t edge) { return edge >> 1; }
 
 std::uint32_t root_of(std::vector<std::uint32_t>& parents, std::uint32_t i) {
     while (parents[i] != i) i = parents[i] = parents[parents[i]];
@@ -35,7 +35,7 @@ MeshReport inspect(const Mesh& mesh) {
     report.bounds = mesh.bounds();
     Welder welder;
     std::vector<std::uint32_t> place(mesh.positions.size(), ~0u);
-    std::vector<Edge> edges;
+    std::vector<std::uint64_t> edges;
     edges.reserve(3 * mesh.triangles.size());
     const Vec3d center(report.bounds.center());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -52,22 +52,19 @@ MeshReport inspect(const Mesh& mesh) {
         if (!(area > 0)) ++report.degenerate_triangles;
         for (int k = 0; k < 3; ++k) {
             const std::uint64_t from = place[t[k]], to = place[t[(k + 1) % 3]];
-            if (from != to)
-                edges.push_back({std::min(from, to) << 32 | std::max(from, to),
-                                 static_cast<std::uint32_t>(i), from < to});
+            if (from != to) edges.push_back(edge(from, to));
         }
     }
     report.vertices = welder.points.size();
-    std::sort(edges.begin(), edges.end(),
-              [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    std::vector<std::uint32_t> parents(mesh.triangles.size());
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint32_t> parents(report.vertices);
     std::iota(parents.begin(), parents.end(), 0u);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i, forward = 0;
-        for (; j < edges.size() && edges[j].ends == edges[i].ends; ++j) {
-            forward += edges[j].forward;
-            parents[root_of(parents, edges[j].triangle)] = root_of(parents, edges[i].triangle);
-        }
+        for (; j < edges.size() && ends(edges[j]) == ends(edges[i]); ++j) forward += edges[j] & 1;
+        const auto from = static_cast<std::uint32_t>(edges[i] >> 32);
+        const auto to = static_cast<std::uint32_t>(edges[i]) >> 1;
+        parents[root_of(parents, from)] = root_of(parents, to);
         if (j - i == 1) ++report.boundary_edges;
         if (j - i > 2) ++report.non_manifold_edges;
         if (j - i == 2 && forward != 1) ++report.inconsistent_edges;

@@ -11,7 +11,7 @@ namespace nacre {
 struct MeshReport {
     std::size_t vertices = 0;  ///< distinct places
     std::size_t triangles = 0;
-    std::size_t components = 0;          ///< connected through shared edges
+    std::size_t components = 0;          ///< connected through shared vertices
     std::size_t boundary_edges = 0;      ///< edges of one triangle only: the surface is open there
     std::size_t non_manifold_edges = 0;  ///< edges of three triangles or more
     /// Edges of two triangles that run along it in the same direction: one is inside out.
