@@ -1,0 +1,103 @@
+#pragma once
+// Does a sampler draw directions with the density that it claims? Pearson's chi-square test over
+// bins of the sphere.
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "nacre/math/quadrature.h"
+#include "nacre/math/random.h"
+
+namespace nacre::test {
+
+/// Q(a, x), the upper regularised incomplete gamma function: series below a + 1, Lentz's continued
+/// fraction above (W. H. Press et al., Numerical Recipes, section 6.2).
+inline double gamma_q(double a, double x) {
+    if (x <= 0.) return 1.;
+    const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
+    if (x < a + 1.) {
+        double term = 1. / a, sum = term;
+        for (int n = 1; n < 1000; ++n) sum += (term *= x / (a + n));
+        return 1. - sum * front;
+    }
+    double b = x + 1. - a, c = 1e300, d = 1. / b, h = d;
+    for (int n = 1; n < 1000; ++n) {
+        const double an = -n * (n - a);
+        b += 2.;
+        d = 1. / (an * d + b);
+        c = b + an / c;
+        h *= c * d;
+    }
+    return front * h;
+}
+
+struct ChiSquareResult {
+    double p = 0.;         ///< probability of a worse fit by chance
+    double integral = 0.;  ///< of the density over the sphere
+    double drawn = 0.;     ///< share of the samples that had a direction
+};
+
+/// `sample` returns the direction of random number i, or nothing if it belongs to no density (it
+/// was absorbed or discrete); `pdf` is the density of those that it returns. Bins of fewer than
+/// five expected samples are pooled, and the directions that do not exist are a bin of their own.
+inline ChiSquareResult chi_square(const std::function<std::optional<Vec3f>(Random&)>& sample,
+                                  const std::function<double(const Vec3f&)>& pdf,
+                                  std::uint64_t seed, int samples = 50000, int rows = 32,
+                                  int columns = 32) {
+    std::vector<double> expected(rows * columns), found(rows * columns);
+    const GaussLegendre nodes(8);
+    const double pi = std::numbers::pi, dz = 2. / rows, dphi = 2. * pi / columns;
+    ChiSquareResult result;
+    for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+            const double mean = nodes.integrate(-1. + r * dz, -1. + (r + 1) * dz, [&](double z) {
+                return nodes.integrate(c * dphi, (c + 1) * dphi, [&](double phi) {
+                    const double s = std::sqrt(1. - z * z);
+                    return pdf(Vec3f{float(s * std::cos(phi)), float(s * std::sin(phi)), float(z)});
+                });
+            });
+            expected[r * columns + c] = mean * samples;
+            result.integral += mean;
+        }
+    Random random(stream_key(seed, 1));
+    int drawn = 0;
+    for (int i = 0; i < samples; ++i)
+        if (const auto w = sample(random)) {
+            const int r = std::clamp(int((w->z + 1.) / dz), 0, rows - 1);
+            const double phi = std::atan2(w->y, w->x);
+            const int c = std::clamp(int((phi < 0. ? phi + 2. * pi : phi) / dphi), 0, columns - 1);
+            found[r * columns + c] += 1.;
+            ++drawn;
+        }
+    result.drawn = double(drawn) / samples;
+
+    double statistic = 0., pooled_expected = 0., pooled_found = 0.;
+    int terms = 0;
+    const auto add = [&](double e, double o) {
+        statistic += (o - e) * (o - e) / e;
+        ++terms;
+    };
+    expected.push_back(std::max(0., 1. - result.integral) * samples);
+    found.push_back(samples - drawn);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        if (expected[i] >= 5.) {
+            add(expected[i], found[i]);
+        } else {
+            pooled_expected += expected[i];
+            pooled_found += found[i];
+        }
+    }
+    if (pooled_expected >= 1.)
+        add(pooled_expected, pooled_found);
+    else if (pooled_found > pooled_expected + 6. * std::sqrt(pooled_expected) + 6.)
+        return result;  // directions where there is no density at all
+    result.p = terms > 1 ? gamma_q(0.5 * (terms - 1), 0.5 * statistic) : 1.;
+    return result;
+}
+
+/// Significance of each of n tests for which all together fail by chance with 1 % (Sidak).
+inline double sidak(int n) { return 1. - std::pow(0.99, 1. / n); }
+
+}  // namespace nacre::test
