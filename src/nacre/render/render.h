@@ -17,8 +17,8 @@ struct RenderOptions {
     int threads = 0;       ///< 0: all cores
     double timeout_s = 0;  ///< 0: none; when reached the render stops after the samples in flight
     const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler
-    std::function<void(const RenderProgress&)>
-        progress;  ///< called from one thread at a time, a few times a second
+    /// Called from one thread at a time, a few times a second and at the end.
+    std::function<void(const RenderProgress&)> progress = {};
 };
 
 struct RenderResult {
