@@ -26,6 +26,7 @@ struct BuildContext {
         search_path;  ///< folder of the scene file first, then <path> elements
     double mm_per_unit = 1.0;
     std::vector<std::string> warnings;
+    int film_width = 0, film_height = 0;  ///< instead of the scene's if positive
 
     std::map<const SceneNode*, MaterialPtr> materials;
     std::map<const SceneNode*, MediumPtr> media;
@@ -53,6 +54,8 @@ TexturePtr get_texture(const SceneNode& node, std::string_view name, ColorRole r
                        float otherwise, BuildContext& context);
 
 MaterialPtr make_material(const SceneNode& node, BuildContext& context);
+/// The types of <bsdf> that make_material knows.
+std::vector<std::string> material_types();
 TexturePtr make_texture(const SceneNode& node, ColorRole role, BuildContext& context);
 MediumPtr make_medium(const SceneNode& node, BuildContext& context);
 PhaseFunction make_phase(const SceneNode& node);

@@ -15,6 +15,7 @@ struct LoadOptions {
     /// Unset: RGB bands, unless the scene carries genuine wavelength data (tabulated spectra, black
     /// bodies, dispersion).
     std::optional<ColorMode> mode;
+    int width = 0, height = 0;  ///< of the film, instead of what the scene says; 0: as it says
 };
 
 /// Reads the file into a tree of nodes: defaults, -D, includes, references and transforms are
@@ -33,10 +34,13 @@ struct MeshSceneOptions {
     std::optional<ColorMode> mode;
 };
 /// A mesh file as a scene: the object in the measured medium behind a smooth boundary, standing on
-/// a floor, camera and lights chosen to frame it (key light, rim light from behind for
-/// translucency, soft environment).
+/// a floor, camera and lights chosen to frame it (warm key light, strong light from behind for
+/// translucency, soft environment). The mesh is scaled to its height, y is up and +z the front; a
+/// mesh that is inside out is turned round. Scene units are millimetres. The medium is the measured
+/// one with reduced coefficients and isotropic scattering. Integrator volpath, 64 samples.
+/// Throws InputError for unknown media, unreadable or flat meshes.
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options = {});
-/// The same for a mesh in memory.
+/// The same for a mesh in memory, which is not changed.
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options);
 
 }  // namespace nacre

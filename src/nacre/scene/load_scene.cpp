@@ -63,16 +63,26 @@ CameraPtr default_camera(const Scene& scene, BuildContext& context) {
     return make_camera(node, static_cast<float>(aspect), context);
 }
 
+/// A size that was asked for takes the place of the film's, and of a crop window within it.
+void set_film_size(FilmSettings& film, const BuildContext& context) {
+    if (context.film_width <= 0 || context.film_height <= 0) return;
+    film.width = context.film_width;
+    film.height = context.film_height;
+    film.crop_x = film.crop_y = film.crop_width = film.crop_height = 0;
+}
+
 void read_sensor(const SceneNode& root, Scene& scene, BuildContext& context) {
     const SceneNode* sensor = only_child(root, "sensor");
     scene.sampler.samples = 4;  // Mitsuba's default
     if (!sensor) {
         context.warnings.push_back(fmt::format(
             "{}: the scene has no <sensor>; a camera that frames it is used", root.location.str()));
+        set_film_size(scene.film, context);
         scene.camera = default_camera(scene, context);
         return;
     }
     if (const SceneNode* film = only_child(*sensor, "film")) scene.film = read_film(*film, context);
+    set_film_size(scene.film, context);
     if (const SceneNode* sampler = only_child(*sensor, "sampler"))
         scene.sampler = read_sampler(*sampler);
     if (const SceneNode* medium = only_child(*sensor, "medium"))
@@ -168,6 +178,8 @@ Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<Co
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
     BuildContext context;
+    context.film_width = options.width;
+    context.film_height = options.height;
     const SceneNodePtr root = read_scene_xml(file, options.defines, context.search_path);
     return build_scene(*root, context, options.mode);
 }

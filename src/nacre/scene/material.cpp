@@ -86,6 +86,8 @@ std::vector<MaterialPtr> nested_materials(const SceneNode& node, std::size_t lea
     return materials;
 }
 
+std::vector<std::string> material_types() { return type_names(); }
+
 MaterialPtr make_material(const SceneNode& node, BuildContext& context) {
     if (const auto known = context.materials.find(&node); known != context.materials.end())
         return known->second;
