@@ -1,7 +1,9 @@
 #include "nacre/geometry/analytic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "nacre/math/error.h"
@@ -20,17 +22,10 @@ float to_turn(double y, double x) {
     return t < 1.f ? t : 0.f;
 }
 
-// Minimum of the smooth periodic f over azimuth: 64 samples bracket it, golden-section search
-// refines it. An ellipse's squared distance has at most two minima, so the bracket finds the lower.
+// Minimum of f on [a, b], where it has one minimum, by golden-section search.
 template <class F>
-double minimize_over_azimuth(F f) {
-    constexpr int kSamples = 64;
-    const double step = kTwoPi / kSamples;
-    double best = 0, lowest = f(0.0);
-    for (int i = 1; i < kSamples; ++i)
-        if (const double v = f(i * step); v < lowest) lowest = v, best = i * step;
+double minimize(F f, double a, double b) {
     constexpr double kGolden = 0.6180339887498949;
-    double a = best - step, b = best + step;
     double c = b - kGolden * (b - a), d = a + kGolden * (b - a);
     double fc = f(c), fd = f(d);
     // 0.618^48 < 1e-10 of the bracket; squared distances are flat below 1e-8 anyway.
@@ -44,6 +39,24 @@ double minimize_over_azimuth(F f) {
         }
     }
     return (a + b) / 2;
+}
+
+// Azimuth of the minimum of the periodic f: samples bracket its local minima, each is refined and
+// the lowest wins. An ellipse has two, an oblique cylinder with its clamped ends a few.
+template <class F>
+double minimize_over_azimuth(F f) {
+    constexpr int kSamples = 96;
+    constexpr double kStep = kTwoPi / kSamples;
+    std::array<double, kSamples> values;
+    for (int i = 0; i < kSamples; ++i) values[i] = f(i * kStep);
+    double best = 0, lowest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kSamples; ++i) {
+        if (values[i] > values[(i + 1) % kSamples]) continue;
+        if (values[i] > values[(i + kSamples - 1) % kSamples]) continue;
+        const double azimuth = minimize(f, (i - 1) * kStep, (i + 1) * kStep);
+        if (const double v = f(azimuth); v < lowest) lowest = v, best = azimuth;
+    }
+    return best;
 }
 
 }  // namespace
