@@ -3,6 +3,7 @@
 
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/mesh_io.h"
+#include "nacre/geometry/mesh_report.h"
 #include "nacre/scene/scene_builder.h"
 
 namespace nacre {
@@ -23,10 +24,14 @@ void apply(const Transform& to_world, Mesh& mesh) {
 std::uint32_t add_mesh(const SceneNode& node, std::shared_ptr<Mesh> mesh, RayScene& rays) {
     const bool face_normals = node.get_bool("face_normals", false);
     const bool flip_normals = node.get_bool("flip_normals", false);
+    // As Mitsuba: a mesh without normals is smooth unless its faces are asked for.
+    if (!face_normals && mesh->normals.empty()) compute_normals(*mesh);
     return rays.add(std::move(mesh), face_normals, flip_normals);
 }
 
 std::uint32_t add_mesh_file(const SceneNode& node, RayScene& rays, BuildContext& context) {
+    const auto in_memory = context.meshes.find(&node);
+    if (in_memory != context.meshes.end()) return add_mesh(node, in_memory->second, rays);
     MeshOptions options;
     options.to_world = node.get_transform("to_world");
     if (node.type == "serialized") {
@@ -37,9 +42,6 @@ std::uint32_t add_mesh_file(const SceneNode& node, RayScene& rays, BuildContext&
     }
     if (node.has("flip_tex_coords"))
         options.flip_tex_coords = node.get_bool("flip_tex_coords", false);
-    const auto in_memory = context.meshes.find(&node);
-    if (in_memory != context.meshes.end()) return add_mesh(node, in_memory->second, rays);
-
     const std::filesystem::path file = context.file(node, "filename");
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -160,15 +162,16 @@ std::string name_of(const SceneNode& shape) {
     return shape.type;
 }
 
-void warn_about_media(const SceneNode& node, const ShapeBinding& shape, const Mesh* mesh,
-                      BuildContext& context) {
+void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const Mesh* mesh,
+                         BuildContext& context) {
     const auto warn = [&](const std::string& message) {
-        context.warnings.push_back(
-            fmt::format("{}: '{}': {}", node.location.str(), shape.name, message));
+        const std::string where = node.location.file ? node.location.str() + ": " : "";
+        context.warnings.push_back(fmt::format("{}'{}': {}", where, shape.name, message));
     };
     if (!(shape.material->flags() & (transmits | has_null)))
-        warn("no light passes its material, so its media cannot be seen");
-    (void)mesh;
+        warn("no light passes its material, so the medium inside cannot be seen");
+    if (!mesh) return;
+    if (const std::string message = warning(inspect(*mesh), true); !message.empty()) warn(message);
 }
 
 }  // namespace
@@ -214,7 +217,7 @@ void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
     }
     node.check_all_used();
     if (emitter) lights.push_back({emitter, index});
-    if (shape.separates_media) warn_about_media(node, shape, scene.rays.mesh(index), context);
+    if (shape.interior) warn_about_interior(node, shape, scene.rays.mesh(index), context);
     scene.shapes.push_back(std::move(shape));
 }
 

@@ -53,11 +53,14 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string& name : known) {
         const std::string candidate = folded(name);
-        const std::size_t distance = edit_distance(wanted, candidate);
+        std::size_t distance = edit_distance(wanted, candidate);
+        // A word cut short, such as `gauss` for `gaussian`, is plausible as well.
+        if (wanted.size() >= 3 && candidate.starts_with(wanted))
+            distance = std::min<std::size_t>(distance, 2);
         // A third of the letters may be wrong; beyond that the suggestion would puzzle.
-        const std::size_t allowed = std::max(wanted.size(), candidate.size()) / 3;
-        if (distance <= std::max<std::size_t>(allowed, 1) && distance < candidate.size() &&
-            distance < best_distance) {
+        const std::size_t allowed =
+            std::max<std::size_t>(std::max(wanted.size(), candidate.size()) / 3, 1);
+        if (distance <= allowed && distance < candidate.size() && distance < best_distance) {
             best = name;
             best_distance = distance;
         }

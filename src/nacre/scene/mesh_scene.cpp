@@ -1,0 +1,176 @@
+// A bare mesh as a scene. Lengths are millimetres, y is up, the object stands on y = 0 and is
+// looked at from +z.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "nacre/geometry/mesh_io.h"
+#include "nacre/geometry/mesh_report.h"
+#include "nacre/optics/media.h"
+#include "nacre/scene/load.h"
+#include "nacre/scene/scene_builder.h"
+
+namespace nacre {
+namespace {
+
+using NodePtr = std::shared_ptr<SceneNode>;
+
+NodePtr make_node(const char* tag, const char* type) {
+    auto node = std::make_shared<SceneNode>();
+    node->tag = tag;
+    node->type = type;
+    return node;
+}
+
+template <class T>
+void set(const NodePtr& node, const char* name, const char* tag, T value) {
+    node->values.push_back({name, tag, std::move(value), {}});
+}
+
+void set_rgb(const NodePtr& node, const char* name, const Vec3f& rgb) {
+    ColorValue color;
+    color.rgb = rgb;
+    set(node, name, "rgb", color);
+}
+
+void add(const NodePtr& parent, NodePtr child, const char* name = "") {
+    parent->children.push_back({name, std::move(child), {}});
+}
+
+/// Unit vector `azimuth` degrees from +z towards +x and `elevation` degrees above the floor.
+Vec3d direction(double azimuth, double elevation) {
+    const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+}
+
+/// The object's bounding sphere, about which everything is arranged.
+struct Stage {
+    Vec3d center;
+    double radius;
+};
+
+/// A square light of half side 0.9 radii, 4 radii away, that faces the object. `white` is the
+/// radiance that it alone gives to a white surface turned towards it.
+NodePtr square_light(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
+    const double half = 0.9 * stage.radius, distance = 4 * stage.radius;
+    const Vec3d position = stage.center + from * distance;
+    auto light = make_node("emitter", "area");
+    // A white surface shines with E / pi, and E = L A / d^2 for a light that is far away.
+    const double radiance = white * std::numbers::pi * distance * distance / (4 * half * half);
+    set_rgb(light, "radiance", color * static_cast<float>(radiance));
+    auto shape = make_node("shape", "rectangle");
+    set(shape, "to_world", "transform",
+        Transform::look_at(position, stage.center, {0, 1, 0}) * Transform::scale({half, half, 1}));
+    add(shape, light);
+    return shape;
+}
+
+NodePtr floor_under(const Stage& stage, double height) {
+    auto grey = make_node("bsdf", "diffuse");
+    set_rgb(grey, "reflectance", {0.4f, 0.4f, 0.4f});
+    auto shape = make_node("shape", "rectangle");
+    // A thousandth of the height below the object, so that the two surfaces never coincide; wide
+    // enough for its edge to be far behind.
+    const double half = 60 * stage.radius;
+    set(shape, "to_world", "transform",
+        Transform::translate({0, -1e-3 * height, 0}) * Transform::rotate({1, 0, 0}, -90) *
+            Transform::scale({half, half, 1}));
+    add(shape, grey);
+    return shape;
+}
+
+NodePtr camera_for(const Stage& stage, const MeshSceneOptions& options) {
+    constexpr double fov = 26;  // about that of an 80 mm lens on 35 mm film: little distortion
+    const double distance = 1.08 * stage.radius / std::sin(fov / 2 * std::numbers::pi / 180);
+    auto camera = make_node("sensor", "perspective");
+    set(camera, "fov", "float", fov);
+    set(camera, "fov_axis", "string", std::string("smaller"));
+    set(camera, "near_clip", "float", 0.01 * distance);
+    set(camera, "far_clip", "float", 1000 * distance);
+    set(camera, "to_world", "transform",
+        Transform::look_at(stage.center + direction(28, 14) * distance, stage.center, {0, 1, 0}));
+    auto film = make_node("film", "hdrfilm");
+    set(film, "width", "integer", std::int64_t{options.width});
+    set(film, "height", "integer", std::int64_t{options.height});
+    add(camera, film);
+    auto sampler = make_node("sampler", "sobol");
+    set(sampler, "sample_count", "integer", std::int64_t{64});
+    add(camera, sampler);
+    return camera;
+}
+
+NodePtr translucent_shape(const MeasuredMedium& measured) {
+    auto boundary = make_node("bsdf", "dielectric");
+    set(boundary, "int_ior", "float", double{measured.eta});
+    set(boundary, "ext_ior", "float", 1.0);
+    auto medium = make_node("medium", "homogeneous");
+    // The reduced coefficients with isotropic scattering: what was measured, and by the similarity
+    // relation as good as the unknown phase function after a few collisions.
+    set(medium, "material", "string", std::string(measured.name));
+    add(medium, make_node("phase", "isotropic"));
+    auto shape = make_node("shape", "obj");
+    shape->id = "object";
+    add(shape, boundary);
+    add(shape, medium, "interior");
+    return shape;
+}
+
+/// The mesh in millimetres, centred above the origin, standing on y = 0, its outside outside.
+std::shared_ptr<Mesh> placed(Mesh mesh, double height_mm) {
+    const Box3f box = mesh.bounds();
+    const std::string name = mesh.name.empty() ? "mesh" : mesh.name;
+    if (box.empty() || !(box.diagonal().y > 0.f))
+        throw InputError(name + ": has no height along y, which is up; turn it upright");
+    const float scale = static_cast<float>(height_mm) / box.diagonal().y;
+    const Point3f foot{box.center().x, box.lower.y, box.center().z};
+    for (Point3f& p : mesh.positions) p = (p - foot) * scale;
+    if (inspect(mesh).inside_out()) {
+        for (Mesh::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+        for (Vec3f& n : mesh.normals) n = -n;
+    }
+    return std::make_shared<Mesh>(std::move(mesh));
+}
+
+}  // namespace
+
+Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {
+    const MeasuredMedium& measured = measured_medium(options.material);
+    const double height = options.height_mm.value_or(100.0);
+    if (!(height > 0.0) || !std::isfinite(height))
+        throw InputError(
+            fmt::format("the height of the object must be positive; got {} mm", height));
+    const std::shared_ptr<Mesh> object = placed(*mesh, height);
+    const Box3f box = object->bounds();
+    const Stage stage{Vec3d(box.center()), 0.5 * length(Vec3d(box.diagonal()))};
+
+    auto root = make_node("scene", "");
+    auto integrator = make_node("integrator", "volpath");
+    add(root, integrator);
+    add(root, camera_for(stage, options));
+    auto sky = make_node("emitter", "constant");
+    set_rgb(sky, "radiance", {0.13f, 0.14f, 0.16f});
+    add(root, sky);
+    // With the sky and the floor a white object in the key light comes to just below 1. The light
+    // from behind is stronger, because what passes through the object is little; it stands high
+    // enough to stay out of the picture.
+    add(root, square_light(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
+    add(root, square_light(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 2.2));
+    add(root, floor_under(stage, height));
+    auto shape = translucent_shape(measured);
+    if (!object->name.empty()) shape->id = object->name;
+    add(root, shape);
+
+    BuildContext context;
+    context.meshes[shape.get()] = object;
+    return build_scene(*root, context, options.mode);
+}
+
+Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {
+    measured_medium(options.material);  // a wrong name is told before a large mesh is read
+    std::shared_ptr<Mesh> mesh = load_mesh(file);
+    if (mesh->name.empty()) mesh->name = file.filename().string();
+    return make_mesh_scene(std::move(mesh), options);
+}
+
+}  // namespace nacre
