@@ -171,6 +171,11 @@ TEST_F(AreaLights, MeshGivesTheSumOfItsFaces) {
     expect_estimate(density_integral(*made, {}, {0.f, 0.f, 1.f}, 0.8), 1.0 / 6.0);
     expect_estimate(density_integral(*made, {4.f, 4.f, 7.f}, {-1.f, -1.f, -1.f}, 0.9), 0.5);
     expect_samples_are_met(*made, {}, 1e-4f);
+    // Inside there are only backs.
+    const Ray ray{{0.1f, 0.2f, 3.f}, {0.f, 0.f, 1.f}};
+    const SurfacePoint at = rays_.surface_point(ray, *rays_.intersect(ray));
+    EXPECT_EQ(made->pdf(ray.o, ray.d, &at), 0.f);
+    EXPECT_EQ(made->sample(ray.o, {0.3f, 0.6f}, rgb).pdf, 0.f);
 }
 
 TEST_F(AreaLights, TexturedAreaLightsShineByTheirTexture) {
