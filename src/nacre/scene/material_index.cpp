@@ -56,10 +56,7 @@ DielectricIndex get_index(const SceneNode& node, std::string_view name,
             if (color.kind == ColorValue::Kind::tabulated)
                 return DielectricIndex::tabulated(color.nm, color.values);
             if (color.kind == ColorValue::Kind::constant) return DielectricIndex(color.value);
-            throw InputError(
-                fmt::format("'{}' is an index of refraction: give a number, a name or "
-                            "a tabulated spectrum",
-                            name));
+            throw InputError("an index of refraction is a number, a name or a tabulated spectrum");
         }
         return DielectricIndex(static_cast<float>(node.get_float(name)));
     } catch (const InputError& error) {

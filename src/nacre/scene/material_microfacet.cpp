@@ -48,7 +48,8 @@ MetalIndex get_metal(const SceneNode& node, BuildContext& context) {
     try {
         index = conductor_index(name);
     } catch (const InputError& error) {
-        node.fail_at("material", error.what());
+        node.fail_at("material",
+                     fmt::format("'material' of {}: {}", node.describe(), error.what()));
     }
     if (index.perfect) return {make_constant_texture(0.f), make_constant_texture(1.f)};
     return {make_constant_texture(index.eta), make_constant_texture(index.k)};

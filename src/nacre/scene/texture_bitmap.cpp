@@ -44,8 +44,8 @@ int wrap_index(int i, int n, Wrap wrap) {
     return std::clamp(i, 0, n - 1);
 }
 
-/// Texel coordinates are kept where float still resolves texels and int does not overflow.
-float bounded(float x) { return std::clamp(x, -1e9f, 1e9f); }
+/// Keeps texel coordinates where int does not overflow; NaN becomes a bound.
+float bounded(float x) { return x > -1e9f ? std::min(x, 1e9f) : -1e9f; }
 
 class Bitmap final : public Texture {
   public:
