@@ -50,18 +50,17 @@ struct Stage {
     double radius;
 };
 
-/// A square light of half side 0.9 radii, 4 radii away, that faces the object. `white` is the
-/// radiance that it alone gives to a white surface turned towards it.
-NodePtr square_light(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
-    const double half = 0.9 * stage.radius, distance = 4 * stage.radius;
-    const Vec3d position = stage.center + from * distance;
+/// A shining ball, 4 radii away: unlike a panel it has no back, whose shadow would cut the floor in
+/// two. `white` is the radiance that it alone gives to a white surface turned towards it.
+NodePtr ball_light(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
+    const double radius = 0.9 * stage.radius, distance = 4 * stage.radius;
     auto light = make_node("emitter", "area");
-    // A white surface shines with E / pi, and E = L A / d^2 for a light that is far away.
-    const double radiance = white * std::numbers::pi * distance * distance / (4 * half * half);
+    // The irradiance is pi L (radius / distance)^2, and white shines with irradiance / pi.
+    const double radiance = white * (distance / radius) * (distance / radius);
     set_rgb(light, "radiance", color * static_cast<float>(radiance));
-    auto shape = make_node("shape", "rectangle");
-    set(shape, "to_world", "transform",
-        Transform::look_at(position, stage.center, {0, 1, 0}) * Transform::scale({half, half, 1}));
+    auto shape = make_node("shape", "sphere");
+    set(shape, "center", "point", stage.center + from * distance);
+    set(shape, "radius", "float", radius);
     add(shape, light);
     return shape;
 }
@@ -154,8 +153,8 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
     // With the sky and the floor a white object in the key light comes to just below 1. The light
     // from behind is stronger, because what passes through the object is little; it stands high
     // enough to stay out of the picture.
-    add(root, square_light(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
-    add(root, square_light(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 2.2));
+    add(root, ball_light(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
+    add(root, ball_light(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
     add(root, floor_under(stage, height));
     auto shape = translucent_shape(measured);
     if (!object->name.empty()) shape->id = object->name;
