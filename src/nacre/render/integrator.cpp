@@ -13,8 +13,13 @@ std::unique_ptr<Integrator> make_integrator(const Scene& scene) {
     if (type == "ray") return std::make_unique<PathTracer>(scene, true);
     if (type == "path") return std::make_unique<PathTracer>(scene, false);
     if (type == "volpath") return std::make_unique<VolumePathTracer>(scene);
-    throw InputError(
-        fmt::format("integrator '{}' is not known; known are: ray, path, volpath", type));
+    throw InputError(fmt::format("integrator '{}' is not known; known are: {}", type,
+                                 fmt::join(integrator_types(), ", ")));
+}
+
+std::span<const std::string_view> integrator_types() {
+    static constexpr std::string_view types[] = {"ray", "path", "volpath"};
+    return types;
 }
 
 }  // namespace nacre

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "nacre/render/sampler.h"
 #include "nacre/scene/scene.h"
@@ -32,5 +34,8 @@ class Integrator {
 /// The integrator named by scene.integrator. `scene` outlives it. Precomputation (distance grid)
 /// happens here. Throws InputError for an unknown type.
 std::unique_ptr<Integrator> make_integrator(const Scene& scene);
+
+/// The types that make_integrator knows.
+std::span<const std::string_view> integrator_types();
 
 }  // namespace nacre

@@ -1,0 +1,11 @@
+#pragma once
+// Ctrl-C: the first one asks the render to stop, the second one ends the program.
+#include <atomic>
+
+namespace nacre::cli {
+
+/// Installs the handler for SIGINT and SIGTERM on the first call; the flag becomes true when one
+/// arrives.
+const std::atomic<bool>& interrupt_flag();
+
+}  // namespace nacre::cli

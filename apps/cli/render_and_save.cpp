@@ -1,0 +1,105 @@
+#include "apps/cli/render_and_save.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/interrupt.h"
+#include "apps/cli/progress_bar.h"
+#include "nacre/math/error.h"
+#include "nacre/render/output.h"
+
+namespace nacre::cli {
+namespace {
+
+std::pair<std::uint32_t, std::uint32_t> sample_range(const Film& film) {
+    std::uint32_t least = ~0u, most = 0;
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x) {
+            least = std::min(least, film.count(x, y));
+            most = std::max(most, film.count(x, y));
+        }
+    return {least, most};
+}
+
+void print_json(const RenderResult& r, const Scene& scene, const std::filesystem::path& file) {
+    Vec3d mean;
+    for (int y = 0; y < r.film.height(); ++y)
+        for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));
+    mean = mean / (double(r.film.width()) * r.film.height());
+    const auto [least, most] = sample_range(r.film);
+    const nlohmann::ordered_json json{
+        {"output", file.string()},
+        {"complete", r.complete},
+        {"width", r.film.width()},
+        {"height", r.film.height()},
+        {"samples", scene.sampler.samples},
+        {"fewest_samples", least},
+        {"most_samples", most},
+        {"seed", scene.sampler.seed},
+        {"mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb"},
+        {"integrator", scene.integrator.type},
+        {"seconds", r.seconds},
+        {"cpu_seconds", r.cpu_seconds},
+        {"precompute_seconds", r.precompute_seconds},
+        {"rays", r.counts.rays},
+        {"scatterings", r.counts.scatterings},
+        {"invalid_samples", r.film.invalid_count()},
+        {"mean", {mean.x, mean.y, mean.z}},
+        {"warnings", scene.warnings}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation) {
+    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    const std::atomic<bool>& stop = interrupt_flag();
+    const RenderResult result = [&] {
+        ProgressBar bar(options.quiet);
+        RenderOptions o;
+        o.threads = options.threads;
+        o.timeout_s = options.timeout_s;
+        o.stop = &stop;
+        o.progress = [&](const RenderProgress& p) { bar.show(p); };
+        return render(scene, o);
+    }();
+
+    const std::string invalid = describe_invalid(result.film);
+    if (!invalid.empty() && options.strict)
+        throw RunError(
+            fmt::format("{}; --strict: {} was not written", invalid, options.output.string()));
+    if (!invalid.empty()) fmt::print(stderr, "nacre: warning: {}\n", invalid);
+
+    const auto [least, most] = sample_range(result.film);
+    const bool stopped = stop.load() && !result.complete;
+    if (stopped && most == 0) {
+        fmt::print(stderr, "nacre: interrupted before the first sample; nothing was written\n");
+        return interrupted;
+    }
+    const std::filesystem::path file = stopped ? partial_path(options.output) : options.output;
+    save_render(result, scene, file, {invocation.command_line, version, options.scene_file},
+                options.exposure);
+    if (!result.complete)
+        fmt::print(stderr, "nacre: {} with {} to {} of {} samples a pixel\n",
+                   stopped ? "interrupted" : "timeout", least, most, scene.sampler.samples);
+    if (!options.quiet)
+        fmt::print(stderr, "nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n",
+                   file.string(), result.film.width(), result.film.height(),
+                   format_seconds(result.seconds + result.precompute_seconds),
+                   format_seconds(result.cpu_seconds),
+                   static_cast<double>(result.counts.rays) / 1e6);
+    if (options.json) print_json(result, scene, file);
+    return stopped ? interrupted : success;
+}
+
+std::pair<int, int> parse_size(const std::string& option, const std::string& text) {
+    int width = 0, height = 0;
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 ||
+        height < 1 || width > 65536 || height > 65536)
+        throw InputError(fmt::format(
+            "{}: '{}' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480", option, text));
+    return {width, height};
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,26 @@
+#pragma once
+// What `render` and `demo` share: render a scene with a progress bar, save it, say what happened.
+#include <filesystem>
+
+#include "apps/cli/verb.h"
+#include "nacre/scene/scene.h"
+
+namespace nacre::cli {
+
+struct SaveOptions {
+    std::filesystem::path output;
+    std::string scene_file;
+    int threads = 0;
+    double timeout_s = 0;
+    float exposure = 0.f;
+    bool strict = false, quiet = false, json = false;
+};
+
+/// Returns the exit code: `interrupted` after Ctrl-C, when what there is was saved as
+/// NAME.partial.exr. Throws RunError for invalid samples if `strict`, and then writes nothing.
+int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation);
+
+/// "--size 640x480" and the like: two positive numbers; throws InputError that names the option.
+std::pair<int, int> parse_size(const std::string& option, const std::string& text);
+
+}  // namespace nacre::cli

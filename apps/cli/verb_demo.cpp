@@ -1,0 +1,61 @@
+// nacre demo: the built-in scene, so that a fresh build has something to show.
+#include <CLI/CLI.hpp>
+
+#include "apps/cli/render_and_save.h"
+#include "nacre/math/error.h"
+#include "nacre/scene/image.h"
+#if __has_include("nacre/scene/demo_scene.h")
+#include "nacre/scene/demo_scene.h"
+#define NACRE_HAS_DEMO 1
+#endif
+
+namespace nacre::cli {
+namespace {
+
+struct Options {
+    std::string output = "demo.png", size = "512x512";
+    int spp = 0, threads = 0;
+    double timeout = 50;
+    bool quiet = false;
+};
+
+#ifdef NACRE_HAS_DEMO
+int run(const Options& o, const Invocation& invocation) {
+    SaveOptions save;
+    save.output = o.output;
+    check_image_output(save.output);
+    const auto [width, height] = parse_size("--size", o.size);
+    Scene scene = make_demo_scene(width, height);
+    if (o.spp) scene.sampler.samples = o.spp;
+    save.scene_file = "demo";
+    save.threads = o.threads;
+    save.timeout_s = o.timeout;
+    save.quiet = o.quiet;
+    const int code = render_and_save(scene, save, invocation);
+    if (code == success) fmt::print("{}\n", std::filesystem::absolute(save.output).string());
+    return code;
+}
+#else
+int run(const Options&, const Invocation&) {
+    throw RunError("this build has no demonstration scene");
+}
+#endif
+
+}  // namespace
+
+Action set_up_demo(CLI::App& app, const Invocation& invocation) {
+    auto o = std::make_shared<Options>();
+    app.add_option("-o,--output", o->output, "picture: .png, .exr, .pfm or .hdr")
+        ->capture_default_str();
+    app.add_option("--size", o->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    app.add_option("--spp", o->spp, "samples a pixel")->check(CLI::Range(1, 1 << 30));
+    app.add_option("-t,--threads", o->threads, "threads (default: all cores)")
+        ->check(CLI::Range(1, 1 << 16));
+    app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
+    return [o, invocation] { return run(*o, invocation); };
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,134 @@
+// nacre info: what is in a scene, mesh or image file.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/verb.h"
+#include "nacre/geometry/mesh_io.h"
+#include "nacre/geometry/mesh_report.h"
+#include "nacre/math/error.h"
+#include "nacre/scene/image.h"
+#include "nacre/scene/load.h"
+
+namespace nacre::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json point(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+ordered_json describe_image(const std::filesystem::path& file) {
+    const Image image = read_image(file);
+    ordered_json channels = ordered_json::array();
+    const std::size_t n = image.channels.size();
+    for (std::size_t c = 0; c < n; ++c) {
+        float low = std::numeric_limits<float>::infinity(), high = -low;
+        double sum = 0;
+        std::size_t finite = 0, pixels = image.data.size() / n;
+        for (std::size_t i = c; i < image.data.size(); i += n) {
+            if (!std::isfinite(image.data[i])) continue;
+            low = std::min(low, image.data[i]);
+            high = std::max(high, image.data[i]);
+            sum += image.data[i];
+            ++finite;
+        }
+        ordered_json channel{{"name", image.channels[c]}};
+        if (finite) {
+            channel["min"] = low;
+            channel["mean"] = sum / static_cast<double>(finite);
+            channel["max"] = high;
+        }
+        if (finite < pixels) channel["not_finite"] = pixels - finite;
+        channels.push_back(channel);
+    }
+    return {{"file", file.string()},  {"kind", "image"},      {"width", image.width},
+            {"height", image.height}, {"channels", channels}, {"metadata", image.metadata}};
+}
+
+ordered_json describe_mesh(const std::filesystem::path& file) {
+    const MeshReport r = inspect(*load_mesh(file));
+    ordered_json json{{"file", file.string()},
+                      {"kind", "mesh"},
+                      {"vertices", r.vertices},
+                      {"triangles", r.triangles},
+                      {"components", r.components},
+                      {"closed", r.closed()},
+                      {"solid", r.solid()},
+                      {"boundary_edges", r.boundary_edges},
+                      {"non_manifold_edges", r.non_manifold_edges},
+                      {"inconsistent_edges", r.inconsistent_edges},
+                      {"degenerate_triangles", r.degenerate_triangles},
+                      {"area", r.area},
+                      {"bounds", {point(r.bounds.lower), point(r.bounds.upper)}}};
+    if (r.closed()) json["volume"] = r.volume;
+    if (const std::string text = warning(r, true); !text.empty()) json["warning"] = text;
+    return json;
+}
+
+ordered_json describe_scene(const std::filesystem::path& file) {
+    const Scene scene = load_scene(file);
+    ordered_json shapes = ordered_json::array();
+    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+        const ShapeBinding& s = scene.shapes[i];
+        const Mesh* mesh = scene.rays.mesh(static_cast<std::uint32_t>(i));
+        ordered_json shape{{"name", s.name}};
+        if (mesh) shape["triangles"] = mesh->triangles.size();
+        if (s.light) shape["light"] = true;
+        if (s.interior) shape["interior_medium"] = true;
+        shapes.push_back(shape);
+    }
+    const FilmSettings& f = scene.film;
+    return {{"file", file.string()},
+            {"kind", "scene"},
+            {"mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb"},
+            {"film", {{"width", f.width}, {"height", f.height}, {"filter", f.filter.type}}},
+            {"sampler", {{"type", scene.sampler.type}, {"samples", scene.sampler.samples}}},
+            {"integrator", scene.integrator.type},
+            {"mm_per_unit", scene.mm_per_unit},
+            {"shapes", shapes},
+            {"lights", scene.lights.size()},
+            {"media", scene.media.size()},
+            {"warnings", scene.warnings}};
+}
+
+/// "key: value" lines; what is nested is indented.
+void print_plain(const ordered_json& json, int indent = 0) {
+    for (const auto& [key, value] : json.items()) {
+        const std::string label = json.is_array() ? "-" : key + ":";
+        const bool flat = value.is_primitive() ||
+                          (value.is_array() && std::all_of(value.begin(), value.end(),
+                                                           [](auto& v) { return v.is_number(); }));
+        fmt::print("{:{}}{}{}\n", "", indent, label,
+                   !flat               ? ""
+                   : value.is_string() ? " " + value.template get<std::string>()
+                                       : " " + value.dump());
+        if (!flat) print_plain(value, indent + 2);
+    }
+}
+
+struct Options {
+    std::string file;
+    bool json = false;
+};
+
+int run(const Options& o) {
+    const std::filesystem::path file = o.file;
+    const ordered_json json = has_image_extension(file)    ? describe_image(file)
+                              : file.extension() == ".xml" ? describe_scene(file)
+                                                           : describe_mesh(file);
+    if (o.json)
+        fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+    else
+        print_plain(json);
+    return success;
+}
+
+}  // namespace
+
+Action set_up_info(CLI::App& app, const Invocation&) {
+    auto o = std::make_shared<Options>();
+    app.add_option("file", o->file, "scene (.xml), mesh or image")->required();
+    app.add_flag("--json", o->json, "for programs");
+    return [o] { return run(*o); };
+}
+
+}  // namespace nacre::cli

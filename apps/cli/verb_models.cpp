@@ -1,0 +1,132 @@
+// nacre models: what there is to render with, from the library's own lists.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/verb.h"
+#include "nacre/math/error.h"
+#include "nacre/optics/media.h"
+#include "nacre/optics/names.h"
+#include "nacre/optics/phase.h"
+#include "nacre/render/integrator.h"
+#include "nacre/scene/build.h"
+
+namespace nacre::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json to_json(const Vec3f& v) {
+    // Through the shortest decimal, so that 0.002 does not become 0.0020000000949949026.
+    const auto number = [](float x) { return std::stod(fmt::format("{}", x)); };
+    return {number(v.x), number(v.y), number(v.z)};
+}
+
+ordered_json to_json(const MeasuredMedium& m) {
+    ordered_json r{{"name", m.name},
+                   {"kind", "medium"},
+                   {"sigma_s_prime_per_mm", to_json(m.sigma_s_prime)},
+                   {"sigma_a_per_mm", to_json(m.sigma_a)},
+                   {"eta", std::stod(fmt::format("{}", m.eta))}};
+    if (m.diffuse_reflectance) r["diffuse_reflectance"] = to_json(*m.diffuse_reflectance);
+    r["source"] = m.source;
+    return r;
+}
+
+/// Everything that has only a name, by kind.
+std::vector<std::pair<std::string, std::vector<std::string>>> named_models() {
+    const auto names = [](std::span<const std::string_view> views) {
+        return std::vector<std::string>(views.begin(), views.end());
+    };
+    return {{"bsdf", material_types()},
+            {"phase", names(PhaseFunction::names())},
+            {"integrator", names(integrator_types())}};
+}
+
+constexpr std::pair<const char*, const char*> headings[] = {
+    {"bsdf", "materials (<bsdf type=...>)"},
+    {"phase", "phase functions (<phase type=...>)"},
+    {"integrator", "integrators (<integrator type=...>)"},
+};
+
+int list(bool json) {
+    if (json) {
+        ordered_json r;
+        for (const auto& [kind, names] : named_models()) r[kind] = names;
+        for (const MeasuredMedium& m : measured_media()) r["medium"].push_back(to_json(m));
+        fmt::print("{}\n", r.dump(2));
+        return success;
+    }
+    for (const auto& [kind, names] : named_models()) {
+        const auto heading = std::find_if(std::begin(headings), std::end(headings),
+                                          [&](const auto& h) { return kind == h.first; });
+        fmt::print("{}\n", heading->second);
+        for (const std::string& n : names) fmt::print("  {}\n", n);
+        fmt::print("\n");
+    }
+    fmt::print("measured media (--material), mm^-1 in red, green, blue\n");
+    fmt::print("  {:<24} {:<26} {:<26} {}\n", "name", "reduced scattering", "absorption", "index");
+    const auto triple = [](const Vec3f& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
+    for (const MeasuredMedium& m : measured_media())
+        fmt::print("  {:<24} {:<26} {:<26} {}\n", m.name, triple(m.sigma_s_prime),
+                   triple(m.sigma_a), m.eta);
+    return success;
+}
+
+void show_medium(const MeasuredMedium& m) {
+    fmt::print("{}: measured medium\n  source: {}\n  index of refraction: {}\n", m.name, m.source,
+               m.eta);
+    const auto row = [](const char* what, const Vec3f& v) {
+        fmt::print("  {:<38} {:<10.4g} {:<10.4g} {:.4g}\n", what, v.x, v.y, v.z);
+    };
+    const Vec3f t = m.sigma_t_prime();
+    row("reduced scattering, mm^-1", m.sigma_s_prime);
+    row("absorption, mm^-1", m.sigma_a);
+    row("reduced albedo",
+        {m.sigma_s_prime.x / t.x, m.sigma_s_prime.y / t.y, m.sigma_s_prime.z / t.z});
+    row("transport mean free path, mm", {1 / t.x, 1 / t.y, 1 / t.z});
+    if (m.diffuse_reflectance) row("diffuse reflectance, as published", *m.diffuse_reflectance);
+}
+
+int show(const std::string& name, bool json) {
+    std::vector<std::string> known;
+    for (const auto& [kind, names] : named_models())
+        for (const std::string& n : names) {
+            known.push_back(n);
+            if (plain_name(n) != plain_name(name)) continue;
+            if (json)
+                fmt::print("{}\n", ordered_json{{"name", n}, {"kind", kind}}.dump(2));
+            else
+                fmt::print("{}: <{} type=\"{}\">\n", n, kind, n);
+            return success;
+        }
+    for (const MeasuredMedium& m : measured_media()) {
+        known.emplace_back(m.name);
+        if (plain_name(m.name) != plain_name(name)) continue;
+        if (json)
+            fmt::print("{}\n", to_json(m).dump(2));
+        else
+            show_medium(m);
+        return success;
+    }
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    throw InputError(unknown_name("model", name, views));
+}
+
+struct Options {
+    bool json = false;
+    std::string name;
+};
+
+}  // namespace
+
+Action set_up_models(CLI::App& app, const Invocation&) {
+    auto o = std::make_shared<Options>();
+    app.add_flag("--json", o->json, "for programs");
+    CLI::App* sub = app.add_subcommand("show", "one of them in full");
+    sub->add_option("name", o->name, "a material, medium, phase function or integrator")
+        ->required();
+    sub->add_flag("--json", o->json, "for programs");
+    return [o, sub] { return sub->parsed() ? show(o->name, o->json) : list(o->json); };
+}
+
+}  // namespace nacre::cli
