@@ -300,17 +300,14 @@ TEST_F(WrongFile, UnusedDefinitionsOfTheCommandLine) {
     const auto file = write("a.xml", R"(<scene version="3.0.0"><default name="spp" value="4"/>
         <emitter type="constant"><float name="radiance" value="$spp"/></emitter></scene>)");
     EXPECT_EQ(error_of([&] {
-                  load_scene(file, {.defines = {{"ssp", "3"}}, .mode = {}});
+                  load_scene(file, {.defines = {{"ssp", "3"}}});
               }),
               "command line: -D ssp: the scene does not use '$ssp'; did you mean 'spp'?");
     EXPECT_EQ(error_of([&] {
-                  load_scene(file, {.defines = {{"depth", "3"}}, .mode = {}});
+                  load_scene(file, {.defines = {{"depth", "3"}}});
               }),
               "command line: -D depth: the scene does not use '$depth'; known are: spp");
-    EXPECT_EQ(error_of([&] {
-                  load_scene(file, {.defines = {{"spp", "3"}}, .mode = {}});
-              }),
-              "no error");
+    EXPECT_EQ(error_of([&] { load_scene(file, {.defines = {{"spp", "3"}}}); }), "no error");
 }
 
 TEST_F(WrongFile, DeepNestingDoesNotOverflow) {

@@ -212,6 +212,8 @@ CameraPtr make_camera(const SceneNode& node, float aspect, BuildContext&) {
     for (const auto& [name, factory] : factories) {
         if (name == node.type) {
             accept_shutter(node);
+            // Mitsuba's cameras all take it; where everything is sharp it changes nothing.
+            if (name != "thinlens") node.get_float("focus_distance", 0.0);
             CameraPtr camera = factory(node, aspect);
             // Read by whoever builds the rest of the scene.
             for (const char* tag : {"film", "sampler", "medium"}) node.children_of(tag);

@@ -14,7 +14,7 @@ struct LoadOptions {
     std::map<std::string, std::string> defines;  ///< -D name=value
     /// Unset: RGB bands, unless the scene carries genuine wavelength data (tabulated spectra, black
     /// bodies, dispersion).
-    std::optional<ColorMode> mode;
+    std::optional<ColorMode> mode = {};
     int width = 0, height = 0;  ///< of the film, instead of what the scene says; 0: as it says
 };
 
@@ -28,10 +28,10 @@ SceneNodePtr read_scene_xml(const std::filesystem::path& file,
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 struct MeshSceneOptions {
-    std::string material = "marble";  ///< one of the measured media (optics/media.h)
-    std::optional<double> height_mm;  ///< how tall the object is; unset: 100 mm
+    std::string material = "marble";       ///< one of the measured media (optics/media.h)
+    std::optional<double> height_mm = {};  ///< how tall the object is; unset: 100 mm
     int width = 512, height = 512;
-    std::optional<ColorMode> mode;
+    std::optional<ColorMode> mode = {};
 };
 /// A mesh file as a scene: the object in the measured medium behind a smooth boundary, standing on
 /// a floor, camera and lights chosen to frame it (warm key light, strong light from behind for
