@@ -2,6 +2,7 @@
 // Cheap transcendental functions for inner loops: float accuracy (a few ulp), no special cases.
 // The polynomials are weighted minimax fits (Lawson iteration) whose largest relative error is
 // given with each.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -47,7 +48,7 @@ inline Vec2f fast_unit_circle(float u) {
 /// Uniform direction on the sphere from two uniform numbers.
 inline Vec3f fast_uniform_sphere(Vec2f u) {
     const float z = 1.f - 2.f * u.x;
-    const float r = std::sqrt(std::fmax(0.f, 1.f - z * z));
+    const float r = std::sqrt(std::max(0.f, 1.f - z * z));
     const Vec2f c = fast_unit_circle(u.y);
     return {r * c.x, r * c.y, z};
 }

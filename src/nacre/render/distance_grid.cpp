@@ -39,7 +39,8 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
             Vec3f(float(x0) + block / 2, float(y0) + block / 2, float(z0) + block / 2) * size_;
         const float middle_distance = rays.distance(middle, unlimited);
         for (unsigned z = z0; z < std::min(z0 + block, nz_); ++z)
-            for (unsigned y = y0; y < std::min(y0 + block, ny_); ++y)
+            for (unsigned y = y0; y < std::min(y0 + block, ny_); ++y) {
+                float before = unlimited;  // distance at the cell before in the row
                 for (unsigned x = x0; x < std::min(x0 + block, nx_); ++x) {
                     const Point3f c =
                         origin_ + Vec3f(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f) * size_;
@@ -48,11 +49,15 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
                     // lower bound is good enough (within a factor of two); nearer the surface the
                     // upper one shortens the search.
                     float distance = middle_distance - offset;
-                    if (distance < offset)
-                        distance = rays.distance(c, middle_distance + offset + 1e-3f * size_);
+                    if (distance < offset) {
+                        const float most =
+                            std::min(middle_distance + offset, before + size_) + 1e-3f * size_;
+                        distance = before = rays.distance(c, most);
+                    }
                     cells_[index(int(x), int(y), int(z))] = {
                         std::max(0.f, distance - half_diagonal()), -1};
                 }
+            }
     });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/optics/fresnel.h"
 #include "nacre/render/guide_targets.h"
 #include "nacre/scene/medium.h"
 
@@ -22,6 +23,8 @@ constexpr float depth_in_free_paths = 4.f;
 // anywhere. Smaller: more proposals, each costing two rays. Chosen on the marble bunny, where
 // variance times time has a flat minimum there.
 constexpr float certain_share = 0.25f;
+// Cells from which less than this can be won are left to the walk alone.
+constexpr float min_probability = 0.01f;
 
 // Direction inside that refracts to `outside` through a plane of normal n; eta is inside over
 // outside.
@@ -42,81 +45,88 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
     targets_ = find_guide_targets(scene, bounds, max_targets);
     if (targets_.empty() || !(sigma_t_ > 0.f)) return;
 
-    // The most that any target could bring: at the surface, facing the light.
-    float most = 0.f;
+    // The most that the targets could bring: at the surface, facing each.
+    float most = 0.f, cos_in;
     for (const GuideTarget& target : targets_)
-        most += estimate(target, bounds.center(), normalize(target.center - bounds.center()), 0.f);
+        most +=
+            strength(target, bounds.center(), normalize(target.center - bounds.center()), cos_in);
     if (!(most > 0.f)) return;
     reference_ = certain_share * most;
 
-    // One entry for each cell near the boundary: the planes at the closest points of the centre and
-    // of three points around it, displaced along the surface by the cell's size or the depth,
-    // whichever is larger.
     const float limit = depth_in_free_paths / sigma_t_ + 2.f * grid.half_diagonal();
     std::vector<std::uint32_t> near;
     for (std::size_t c = 0; c < grid.cell_count(); ++c)
         if (grid.clearance(c) + grid.half_diagonal() < limit)
             near.push_back(static_cast<std::uint32_t>(c));
     cells_.resize(near.size());
-    const auto nearest = [&](const Point3f& p, SurfacePoint& at) {
+    const auto nearest = [&](const Point3f& p, float within) -> std::optional<SurfacePoint> {
         std::optional<Hit> best;
         for (const std::uint32_t shape : boundary)
-            if (const auto hit = scene.rays.closest(p, best ? best->t : 2.f * limit, shape))
-                best = hit;
-        if (best) at = scene.rays.surface_point(Ray{p, {0.f, 0.f, 1.f}}, *best);
-        return best.has_value();
+            if (const auto hit = scene.rays.closest(p, best ? best->t : within, shape)) best = hit;
+        if (!best) return {};
+        return scene.rays.surface_point(Ray{p, {0.f, 0.f, 1.f}}, *best);
     };
     tbb::parallel_for(std::size_t(0), near.size(), [&](std::size_t i) {
         const Point3f c = grid.center(near[i]);
-        SurfacePoint first;
-        if (!nearest(c, first)) return;
-        const float depth = length(c - first.p);
-        const float step = std::max(depth, grid.cell_size());
-        cells_[i].normals.fill(first.shading.n);
-        cells_[i].offset = dot(first.shading.n, first.p);
+        const auto first = nearest(c, 2.f * limit);
+        // Cells that are outside as a whole see no collisions.
+        if (!first || dot(c - first->p, first->ng) > grid.half_diagonal()) return;
+        Cell& cell = cells_[i];
+        cell.normals.fill(first->shading.n);
+        cell.offset = dot(first->shading.n, first->p);
+        // Three more planes, from points around the first, displaced by the cell's size or the
+        // depth, whichever is larger: what leaves from here leaves through about that much of the
+        // surface. No point so displaced is farther from the surface than the centre and the
+        // displacement together, which keeps the searches short.
+        const float depth = length(c - first->p), step = std::max(depth, grid.cell_size());
         for (int k = 1; k < planes; ++k) {
             const float angle =
                 2.f * std::numbers::pi_v<float> * static_cast<float>(k - 1) / (planes - 1);
             const Vec3f aside =
-                first.shading.s * std::cos(angle) + first.shading.t * std::sin(angle);
-            SurfacePoint other;
-            if (nearest(c + aside * step, other)) cells_[i].normals[k] = other.shading.n;
+                first->shading.s * std::cos(angle) + first->shading.t * std::sin(angle);
+            if (const auto other = nearest(c + aside * step, 1.001f * (depth + step)))
+                cell.normals[static_cast<std::size_t>(k)] = other->shading.n;
         }
-        grid.set_guide(near[i], static_cast<std::int32_t>(i));
+        for (std::size_t j = 0; j < targets_.size(); ++j) {
+            float cosine = 1.f;
+            cell.strength[j] =
+                strength(targets_[j], first->p, cell.normals[0], cosine) / reference_;
+            cell.fall[j] = sigma_t_ / cosine;
+        }
+        float total = 0.f;
+        for (std::size_t j = 0; j < targets_.size(); ++j) total += cell.strength[j];
+        if (total > min_probability) grid.set_guide(near[i], static_cast<std::int32_t>(i));
     });
 }
 
-float ExitGuide::estimate(const GuideTarget& target, const Point3f& y, const Vec3f& normal,
-                          float depth) const {
-    const Vec3f to = target.center - y;
+float ExitGuide::strength(const GuideTarget& target, const Point3f& at, const Vec3f& normal,
+                          float& cos_in) const {
+    const Vec3f to = target.center - at;
     const float d2 = dot(to, to);
     const Vec3f direction = to * (1.f / std::sqrt(d2));
     const float cos_out = dot(direction, normal);
     if (cos_out < 0.02f) return 0.f;
-    const float cos_in = std::sqrt(1.f - (1.f - cos_out * cos_out) / (eta_ * eta_));
+    cos_in = std::sqrt(1.f - (1.f - cos_out * cos_out) / (eta_ * eta_));
     const float facing = target.radius > 0.f ? 1.f : std::max(0.f, -dot(direction, target.normal));
     const float solid_angle =
         std::min(2.f * std::numbers::pi_v<float>, target.area() * facing / d2);
-    // Schlick's approximation of the transmittance is near enough for a guess.
-    const float f0 = (eta_ - 1.f) * (eta_ - 1.f) / ((eta_ + 1.f) * (eta_ + 1.f));
-    const float m = 1.f - cos_out, transmittance = (1.f - f0) * (1.f - m * m * m * m * m);
-    return target.radiance * solid_angle * cos_out / (eta_ * eta_ * cos_in) * transmittance *
-           std::exp(-sigma_t_ * std::max(0.f, depth) / cos_in) * 0.25f *
-           std::numbers::inv_pi_v<float>;
+    return target.radiance * solid_angle * cos_out / (eta_ * eta_ * cos_in) *
+           (1.f - fresnel_dielectric(cos_out, eta_));
 }
 
-ExitGuide::Proposal ExitGuide::at(const Point3f& y, std::int32_t cell) const {
+ExitGuide::Proposal ExitGuide::at(const Point3f& y, std::int32_t index) const {
     Proposal p;
-    const Cell& c = cells_[static_cast<std::size_t>(cell)];
+    const Cell& cell = cells_[static_cast<std::size_t>(index)];
+    const float depth = std::max(0.f, cell.offset - dot(cell.normals[0], y));
     float total = 0.f;
-    const float depth = c.offset - dot(c.normals[0], y);
     for (std::size_t j = 0; j < targets_.size(); ++j)
-        total += p.choice_[j] = estimate(targets_[j], y, c.normals[0], depth);
-    p.probability_ = std::min(1.f, total / reference_);
+        if (cell.strength[j] > 0.f)
+            total += p.choice_[j] = cell.strength[j] * std::exp(-cell.fall[j] * depth);
+    p.probability_ = std::min(1.f, total);
     if (!(total > 0.f)) return p;
-    for (float& choice : p.choice_) choice /= total;
+    for (std::size_t j = 0; j < targets_.size(); ++j) p.choice_[j] /= total;
     p.guide_ = this;
-    p.normals_ = c.normals.data();
+    p.normals_ = cell.normals.data();
     p.y_ = y;
     return p;
 }

@@ -84,14 +84,20 @@ class ExitGuide {
     struct Cell {
         std::array<Vec3f, planes> normals;
         float offset;  // of the nearest plane: dot(normal, x) on it
+        // What each target could bring at the surface, and how fast that falls with depth. Taken at
+        // the cell's centre: a proposal may be any function of position, and a constant is the
+        // cheapest.
+        std::array<float, max_targets> strength, fall;
     };
-    float estimate(const GuideTarget& target, const Point3f& y, const Vec3f& normal,
-                   float depth) const;
+    // What `target` could bring to a point at the surface, in the units of `reference_`; and the
+    // cosine inside.
+    float strength(const GuideTarget& target, const Point3f& at, const Vec3f& normal,
+                   float& cos_in) const;
 
     std::vector<Cell> cells_;
     std::vector<GuideTarget> targets_;
     float eta_ = 1.f, sigma_t_ = 0.f;
-    float reference_ = 1.f;  // estimate at which a proposal is certain
+    float reference_ = 1.f;  // strength at which a proposal is certain
 };
 
 }  // namespace nacre

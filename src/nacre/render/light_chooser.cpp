@@ -1,34 +1,75 @@
 #include "nacre/render/light_chooser.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace nacre {
 
-LightChooser::LightChooser(std::span<const LightPtr> lights) {
-    double total = 0;
-    for (const LightPtr& light : lights) total += std::max(0.f, light->power());
-    if (!(total > 0)) return;
-    const double uniform = 1.0 / static_cast<double>(lights.size());
-    double sum = 0;
+namespace {
+
+constexpr float uniform_share = 0.1f;
+
+}  // namespace
+
+LightChooser::LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds) {
+    const float radius = scene_bounds.empty() ? 1.f : 0.5f * length(scene_bounds.diagonal());
+    float power = 0.f;
     for (const LightPtr& light : lights) {
-        const double p = 0.5 * uniform + 0.5 * std::max(0.f, light->power()) / total;
-        choices_.push_back({light.get(), static_cast<float>(p)});
-        cumulative_.push_back(static_cast<float>(sum += p));
+        if (!(light->power() > 0.f)) continue;
+        Entry entry{light.get(), 0.f, {}, light->power(), 0.f, 0.f};
+        const Box3f box = light->bounds();
+        if (box.empty()) {
+            // Power of a light at infinity is what falls on the scene's bounding sphere.
+            entry.at_infinity =
+                entry.power / (std::numbers::pi_v<float> * std::max(1e-12f, radius * radius));
+        } else {
+            entry.center = box.center();
+            // Inside the light's bounds its distance says nothing more.
+            entry.min_distance2 =
+                std::max(0.25f * length_squared(box.diagonal()), 1e-6f * radius * radius);
+        }
+        power += entry.power;
+        entries_.push_back(entry);
     }
-    by_address_ = choices_;
-    std::ranges::sort(by_address_, std::less<>{}, &Choice::light);
+    for (Entry& entry : entries_) entry.by_power = entry.power / power;
+    std::ranges::sort(entries_, std::less<>{}, &Entry::light);
 }
 
-LightChooser::Choice LightChooser::choose(float u) const {
-    if (choices_.empty()) return {};
-    const auto it = std::ranges::upper_bound(cumulative_, u);
-    return choices_[std::min<std::size_t>(static_cast<std::size_t>(it - cumulative_.begin()),
-                                          choices_.size() - 1)];
+float LightChooser::importance(const Entry& entry, const Point3f& from) const {
+    if (entries_.size() > max_ranked) return entry.by_power;
+    if (entry.at_infinity > 0.f) return entry.at_infinity;
+    const float d2 = std::max(entry.min_distance2, length_squared(entry.center - from));
+    return entry.power / (std::numbers::pi_v<float> * d2);
 }
 
-float LightChooser::probability(const Light* light) const {
-    const auto it = std::ranges::lower_bound(by_address_, light, std::less<>{}, &Choice::light);
-    return it != by_address_.end() && it->light == light ? it->probability : 0.f;
+float LightChooser::total(const Point3f& from) const {
+    if (entries_.size() > max_ranked) return 1.f;
+    float sum = 0.f;
+    for (const Entry& entry : entries_) sum += importance(entry, from);
+    return sum;
+}
+
+float LightChooser::mixed(float importance, float total) const {
+    return uniform_share / static_cast<float>(entries_.size()) +
+           (1.f - uniform_share) * importance / total;
+}
+
+LightChooser::Choice LightChooser::choose(const Point3f& from, float u) const {
+    if (entries_.empty()) return {};
+    const float sum = total(from);
+    float p = 0.f;
+    for (const Entry& entry : entries_) {
+        p = mixed(importance(entry, from), sum);
+        if (u < p) return {entry.light, p};
+        u -= p;
+    }
+    return {entries_.back().light, p};  // rounding left a little over
+}
+
+float LightChooser::probability(const Point3f& from, const Light* light) const {
+    const auto it = std::ranges::lower_bound(entries_, light, std::less<>{}, &Entry::light);
+    if (it == entries_.end() || it->light != light) return 0.f;
+    return mixed(importance(*it, from), total(from));
 }
 
 }  // namespace nacre

@@ -7,25 +7,38 @@
 
 namespace nacre {
 
-/// Chooses lights with probability half uniform, half in proportion to their power: no light is
-/// starved, and a scene with one strong light wastes few samples on the weak ones.
+/// Chooses lights by the irradiance that they could bring to the point, were nothing in between and
+/// everything facing: power over the squared distance to where the light is. A tenth of the choices
+/// is uniform, so that no light is starved by a bad guess. The cost is linear in the number of
+/// lights up to `max_ranked`; beyond that power alone decides.
 class LightChooser {
   public:
-    explicit LightChooser(std::span<const LightPtr> lights);
+    LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds);
 
     struct Choice {
         const Light* light = nullptr;
         float probability = 0.f;
     };
-    /// `u` in [0, 1); light is null if the scene has none.
-    Choice choose(float u) const;
-    float probability(const Light* light) const;
-    bool empty() const { return choices_.empty(); }
+    /// `u` in [0, 1); light is null if the scene has none that shines.
+    Choice choose(const Point3f& from, float u) const;
+    /// Probability with which `choose` takes `light` for that point.
+    float probability(const Point3f& from, const Light* light) const;
+
+    static constexpr std::size_t max_ranked = 32;
 
   private:
-    std::vector<Choice> choices_;     // in the order of the scene's lights
-    std::vector<float> cumulative_;   // running sum of probabilities
-    std::vector<Choice> by_address_;  // sorted by pointer, for `probability`
+    struct Entry {
+        const Light* light;
+        float at_infinity;  // irradiance of lights without a place
+        Point3f center;
+        float power, min_distance2;
+        float by_power;  // probability when there are too many lights to rank
+    };
+    float importance(const Entry& entry, const Point3f& from) const;
+    float total(const Point3f& from) const;
+    float mixed(float importance, float total) const;
+
+    std::vector<Entry> entries_;  // sorted by address
 };
 
 }  // namespace nacre

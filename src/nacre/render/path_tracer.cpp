@@ -42,7 +42,7 @@ Spectral surface_transmittance(const Scene& scene, bool scene_has_null, Point3f 
 
 PathTracer::PathTracer(const Scene& scene, bool recursive_only, Estimators estimators)
     : scene_(scene),
-      lights_(scene.lights),
+      lights_(scene.lights, scene.rays.bounds()),
       recursive_only_(recursive_only),
       estimators_(estimators),
       has_null_(std::ranges::any_of(
@@ -51,7 +51,7 @@ PathTracer::PathTracer(const Scene& scene, bool recursive_only, Estimators estim
 Spectral PathTracer::direct_light(const SurfacePoint& at, const Material& material, const Vec3f& wo,
                                   Sampler& sampler, const Wavelengths& wavelengths,
                                   RayCounts& counts) const {
-    const LightChooser::Choice choice = lights_.choose(sampler.next1d());
+    const LightChooser::Choice choice = lights_.choose(at.p, sampler.next1d());
     const Vec2f u = sampler.next2d();
     if (!choice.light) return Spectral(0.f);
     const LightSample light = choice.light->sample(at.p, u, wavelengths);
@@ -96,7 +96,8 @@ Spectral PathTracer::radiance(const Ray& camera_ray, Sampler& sampler,
             if (max_lane(emitted) > 0.f) {
                 const bool alone = certain || estimators_ == Estimators::material_only;
                 const float light_pdf =
-                    alone ? 0.f : lights_.probability(light) * light->pdf(from, ray.d, on_light);
+                    alone ? 0.f
+                          : lights_.probability(from, light) * light->pdf(from, ray.d, on_light);
                 result += throughput * emitted * Spectral(alone ? 1.f : pdf / (pdf + light_pdf));
             }
         }

@@ -161,7 +161,10 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
 bool VolumePath::at_collision() {
     if (!within_depth(0)) return false;
     connect_to_light(nullptr, nullptr, {});
-    if (depth_ > scene_.integrator.rr_depth && !roulette(sampler_.random().next())) return false;
+    // A white medium keeps every path: it will find its way out, and weights that grow at each of
+    // hundreds of collisions would be noise.
+    if (depth_ > scene_.integrator.rr_depth && !roulette(sampler_.random().next(), 1.f))
+        return false;
     const Vec3f d_in = ray_.d;
     const Vec3f d = medium_->phase.sample(d_in, sampler_.random().next2());
     partner_ = Partner::light_sampling;
@@ -192,7 +195,7 @@ bool VolumePath::at_surface() {
     if (passing > 0.f) {
         // Straight through: the segment goes on, and so does the chance that next-event estimation
         // had to make it.
-        throughput_ *= sample->weight * Spectral(sample->pdf / passing);
+        throughput_ *= sample->weight;
         density_ *= Spectral(passing);
         if (partner_ == Partner::guided_exit) partner_ = Partner::none;
     } else {
@@ -215,7 +218,7 @@ bool VolumePath::at_surface() {
         partner_density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
     }
     leave(at, direction);
-    return depth_ <= scene_.integrator.rr_depth || passing > 0.f || roulette(sampler_.next1d());
+    return depth_ <= scene_.integrator.rr_depth || passing > 0.f || roulette(sampler_.next1d(), 0.95f);
 }
 
 void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {
@@ -229,8 +232,8 @@ float VolumePath::relative_weight() const {
     return max_lane(throughput_ * density_) / std::max(1e-30f, mean_of(density_)) * eta_ * eta_;
 }
 
-bool VolumePath::roulette(float u) {
-    const float chance = std::min(0.95f, relative_weight());
+bool VolumePath::roulette(float u, float most) {
+    const float chance = std::min(most, relative_weight());
     if (!(u < chance)) return false;
     throughput_ *= Spectral(1.f / chance);
     return true;

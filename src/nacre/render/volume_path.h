@@ -49,7 +49,8 @@ class VolumePath {
     // What the path carries, relative to its start: the largest lane, factors of refraction taken
     // out.
     float relative_weight() const;
-    bool roulette(float u);
+    // Survives with the probability of its relative weight, but at most `most`.
+    bool roulette(float u, float most);
     float mean_of(const Spectral& s) const { return mean(s, wavelengths_); }
     void leave(const SurfacePoint& at, const Vec3f& direction);
 

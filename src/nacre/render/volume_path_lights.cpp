@@ -22,7 +22,7 @@ void VolumePath::add_emission(const Light& light, const SurfacePoint* on_light) 
     if (!(max_lane(emitted) > 0.f)) return;
     float density = mean_of(density_);
     if (partner_ == Partner::light_sampling && vertex_pdf_ > 0.f)
-        density += mean_of(partner_density_) * tracer_.lights_.probability(&light) *
+        density += mean_of(partner_density_) * tracer_.lights_.probability(vertex_, &light) *
                    light.pdf(vertex_, ray_.d, on_light) / vertex_pdf_;
     else if (partner_ == Partner::guided_exit)
         density += mean_of(partner_density_);
@@ -31,11 +31,11 @@ void VolumePath::add_emission(const Light& light, const SurfacePoint* on_light) 
 
 void VolumePath::connect_to_light(const SurfacePoint* at, const Material* material,
                                   const Vec3f& wo) {
+    const Point3f from = at ? at->p : ray_.o;
     const LightChooser::Choice choice =
-        tracer_.lights_.choose(at ? sampler_.next1d() : sampler_.random().next());
+        tracer_.lights_.choose(from, at ? sampler_.next1d() : sampler_.random().next());
     const Vec2f u = at ? sampler_.next2d() : sampler_.random().next2();
     if (!choice.light) return;
-    const Point3f from = at ? at->p : ray_.o;
     const LightSample light = choice.light->sample(from, u, wavelengths_);
     if (!(light.pdf > 0.f) || !(max_lane(light.radiance) > 0.f)) return;
 
