@@ -81,7 +81,8 @@ Spectral PathTracer::radiance(const Ray& camera_ray, Sampler& sampler,
     float pdf = 0.f;
     Point3f from = ray.o;
 
-    for (int depth = 0; settings.max_depth < 0 || depth < settings.max_depth; ++depth) {
+    int depth = 0;
+    while (settings.max_depth < 0 || depth < settings.max_depth) {
         ++counts.rays;
         const auto hit = scene_.rays.intersect(ray);
         const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.environment;
@@ -124,13 +125,14 @@ Spectral PathTracer::radiance(const Ray& camera_ray, Sampler& sampler,
         ray.o = at.spawn(ray.d);
         ray.tmin = 0.f;
         ray.tmax = 1e30f;
-        if (!sample->null) {
-            certain = sample->delta;
-            pdf = sample->pdf;
-            from = at.p;
-        }
+        // A surface that light passes as if it were not there makes no difference to either.
+        if (sample->null) continue;
+        certain = sample->delta;
+        pdf = sample->pdf;
+        from = at.p;
         if (depth >= settings.rr_depth && !survives(throughput, eta, sampler.next1d(), throughput))
             break;
+        ++depth;
     }
     return result;
 }

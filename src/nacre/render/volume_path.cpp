@@ -19,6 +19,9 @@ struct VolumePath::WalkSurroundings {
     VolumePath& path;
     const VolumePathTracer::MediumInfo& info;
     const MediumLanes& lanes;
+    // A stream of its own: the walk's numbers have already decided where the collision is, and a
+    // proposal must not know them.
+    Random random;
     std::optional<Hit> hit{};
 
     DistanceGrid::Cell locate(const Point3f& p) const { return info.grid.locate(p); }
@@ -33,8 +36,8 @@ struct VolumePath::WalkSurroundings {
     void collided(const Walker& w, const DistanceGrid::Cell& cell) {
         if (cell.guide < 0 || !path.within_depth(static_cast<int>(w.collisions) + 1)) return;
         const ExitGuide::Proposal proposal = info.guide.at(w.p, cell.guide);
-        if (!(path.sampler_.random().next() < proposal.probability())) return;
-        path.guided_exit(proposal, w, lanes);
+        if (!(random.next() < proposal.probability())) return;
+        path.guided_exit(proposal, w, lanes, random);
     }
 };
 
@@ -80,7 +83,7 @@ VolumePath::Event VolumePath::travel_homogeneous() {
         return hit_ ? Event::surface : Event::escaped;
     }
     const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
-    WalkSurroundings surroundings{*this, info, lanes};
+    WalkSurroundings surroundings{*this, info, lanes, Random(sampler_.random().next_bits())};
     Walker walker{ray_.o, ray_.d, ray_.d, sampler_.random()};
     for (;;) {
         const std::uint32_t left =
@@ -218,7 +221,8 @@ bool VolumePath::at_surface() {
         partner_density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
     }
     leave(at, direction);
-    return depth_ <= scene_.integrator.rr_depth || passing > 0.f || roulette(sampler_.next1d(), 0.95f);
+    return depth_ <= scene_.integrator.rr_depth || passing > 0.f ||
+           roulette(sampler_.next1d(), 0.95f);
 }
 
 void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {

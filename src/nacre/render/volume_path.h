@@ -40,7 +40,7 @@ class VolumePath {
     // Called by the walk: proposes an exit towards a light at a collision.
     struct WalkSurroundings;
     void guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
-                     const MediumLanes& lanes);
+                     const MediumLanes& lanes, Random& random);
     // Called when the path leaves through the boundary by itself: notes with what density a
     // proposal would have done so.
     void expect_guided_exit(float transmittance);

@@ -120,8 +120,7 @@ VolumePath::Connection VolumePath::connection(Point3f p, const Vec3f& direction,
 }
 
 void VolumePath::guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
-                             const MediumLanes& lanes) {
-    Random& random = sampler_.random();
+                             const MediumLanes& lanes, Random& random) {
     const auto inside = proposal.sample(random);
     if (!inside) return;
     const Ray chord{walker.p, *inside};
