@@ -19,7 +19,7 @@ class ProgressBar {
   private:
     bool quiet_, terminal_;
     bool drawn_ = false;
-    int next_percent_ = 10;
+    int next_percent_ = 0;  ///< the first line says that the render has begun
 };
 
 /// "1:02:03", "2:03", "3.4 s".

@@ -217,7 +217,9 @@ TEST_F(CommandLine, CtrlCSavesWhatThereIsAndExitsWith130) {
               "100000000", static_cast<char*>(nullptr));
         _exit(98);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    // The first line of progress says that samples are being drawn.
+    for (int i = 0; i < 600 && read(folder_ / "stderr").find('%') == std::string::npos; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     ASSERT_EQ(kill(child, SIGINT), 0);
     int status = 0;
     waitpid(child, &status, 0);
@@ -230,6 +232,30 @@ TEST_F(CommandLine, CtrlCSavesWhatThereIsAndExitsWith130) {
     const Image image = read_image(folder_ / "long.partial.exr");
     EXPECT_EQ(image.metadata.at("nacre.complete"), "no");
     EXPECT_NEAR(image.rgb(12, 8).x, 0.5f, 0.1f);
+}
+
+/// Two lights that a float holds each but not together: the lit side of the sphere is infinite.
+TEST_F(CommandLine, InvalidSamplesAreReportedAndFatalIfStrict) {
+    std::string scene = quick_scene;
+    scene.replace(scene.find("0.5, 0.5, 0.5"), 13, "3.4e38, 0, 0");
+    scene.insert(scene.find("    <shape"),
+                 "<emitter type=\"directional\"><vector name=\"direction\" value=\"0, 0, -1\"/>"
+                 "<rgb name=\"irradiance\" value=\"3.4e38, 0, 0\"/></emitter>\n");
+    std::ofstream(folder_ / "quick.xml") << scene;
+    const Outcome strict = nacre("render quick.xml -o a.exr --strict --quiet");
+    EXPECT_EQ(strict.code, 1);
+    EXPECT_TRUE(written().empty());
+    EXPECT_NE(strict.err.find(" invalid samples (not finite or negative), the first at pixel ("),
+              std::string::npos)
+        << strict.err;
+    EXPECT_NE(strict.err.find("; --strict: a.exr was not written\n"), std::string::npos);
+    const Outcome lax = nacre("render quick.xml -o a.exr --quiet --json");
+    EXPECT_EQ(lax.code, 0);
+    EXPECT_TRUE(lax.err.starts_with("nacre: warning: ")) << lax.err;
+    const Image image = read_image(folder_ / "a.exr");
+    EXPECT_EQ(json::parse(lax.out)["invalid_samples"],
+              std::stoi(image.metadata.at("nacre.invalid")));
+    EXPECT_TRUE(image.metadata.at("nacre.invalid_samples").starts_with("pixel ("));
 }
 
 TEST_F(CommandLine, ATimeoutSavesWhatThereIs) {
