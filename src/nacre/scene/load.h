@@ -11,7 +11,7 @@
 namespace nacre {
 
 struct LoadOptions {
-    std::map<std::string, std::string> defines;  ///< -D name=value
+    std::map<std::string, std::string> defines = {};  ///< -D name=value
     /// Unset: RGB bands, unless the scene carries genuine wavelength data (tabulated spectra, black
     /// bodies, dispersion).
     std::optional<ColorMode> mode = {};

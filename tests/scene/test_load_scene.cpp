@@ -1,0 +1,173 @@
+// From a scene file to a Scene: defaults, shapes, what the file leaves open.
+#include "nacre/spectrum/color.h"
+#include "tests/scene/scene_files.h"
+
+namespace nacre {
+namespace {
+
+class LoadScene : public SceneFiles {
+  protected:
+    Scene load(const std::string& body) {
+        return load_scene(
+            write("scene.xml", "<scene version=\"3.0.0\">\n" + body + "\n</scene>\n"));
+    }
+    /// Normal and distance where the ray first meets the scene.
+    std::pair<float, Vec3f> meet(const Scene& scene, const Point3f& o, const Vec3f& d) {
+        const Ray ray{o, d};
+        const auto hit = scene.rays.intersect(ray);
+        if (!hit) return {-1.f, {}};
+        return {hit->t, scene.rays.surface_point(ray, *hit).ng};
+    }
+};
+
+TEST_F(LoadScene, DefaultsAreMitsubas) {
+    const Scene scene = load(R"(<emitter type="constant"/><sensor type="perspective"/>)");
+    EXPECT_EQ(scene.integrator.type, "path");
+    EXPECT_EQ(scene.integrator.max_depth, -1);
+    EXPECT_EQ(scene.integrator.rr_depth, 5);
+    EXPECT_FALSE(scene.integrator.hide_emitters);
+    EXPECT_EQ(scene.film.width, 768);
+    EXPECT_EQ(scene.film.height, 576);
+    EXPECT_EQ(scene.film.filter.type, "gaussian");
+    EXPECT_EQ(scene.sampler.type, "independent");
+    EXPECT_EQ(scene.sampler.samples, 4);
+    EXPECT_EQ(scene.mm_per_unit, 1.0);
+    EXPECT_EQ(scene.camera_medium, nullptr);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(LoadScene, WithoutSensorTheSceneIsFramed) {
+    const Scene scene = load(R"(<shape type="sphere"><point name="center" value="5, 6, 7"/>
+        <float name="radius" value="3"/></shape>)");
+    ASSERT_EQ(scene.warnings.size(), 2u);
+    EXPECT_TRUE(scene.warnings[0].ends_with(":1:1: the scene has no light: the picture is black"));
+    EXPECT_TRUE(scene.warnings[1].ends_with(
+        ":1:1: the scene has no <sensor>; a camera that frames it is used"));
+    EXPECT_TRUE(scene.rays.intersect(scene.camera->ray({0.5f, 0.5f}, {})));
+    for (int i = 0; i <= 10; ++i)
+        for (const Vec2f film :
+             {Vec2f{i * 0.1f, 0.f}, {i * 0.1f, 1.f}, {0.f, i * 0.1f}, {1.f, i * 0.1f}})
+            EXPECT_FALSE(scene.rays.intersect(scene.camera->ray(film, {})));
+}
+
+TEST_F(LoadScene, CropWindowReachesTheEdge) {
+    const Scene scene = load(R"(<emitter type="constant"/><sensor type="perspective">
+        <film type="hdrfilm"><integer name="width" value="100"/><integer name="height" value="50"/>
+            <integer name="crop_offset_x" value="30"/><integer name="crop_height" value="10"/>
+            <string name="quantity" value="luminance"/><string name="pixel_format" value="rgba"/>
+            <rfilter type="mitchell"><float name="A" value="0"/></rfilter></film></sensor>)");
+    EXPECT_EQ(scene.film.crop_x, 30);
+    EXPECT_EQ(scene.film.crop_width, 70);
+    EXPECT_EQ(scene.film.crop_y, 0);
+    EXPECT_EQ(scene.film.crop_height, 10);
+    EXPECT_EQ(scene.film.quantity, FilmQuantity::luminance);
+    EXPECT_EQ(scene.film.filter.b, 0.f);
+    EXPECT_NEAR(scene.film.filter.c, 1.f / 3.f, 1e-6f);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_TRUE(scene.warnings[0].ends_with("pixel_format 'rgba' is written as rgb"));
+}
+
+TEST_F(LoadScene, CylinderStandsBetweenItsEnds) {
+    const Scene scene = load(R"(<shape type="cylinder"><point name="p0" x="1" y="-2"/>
+        <point name="p1" x="1" y="4"/><float name="radius" value="0.5"/></shape>)");
+    const auto [t, n] = meet(scene, {1, 3.9f, 10}, {0, 0, -1});
+    EXPECT_NEAR(t, 9.5f, 1e-5f);
+    EXPECT_NEAR(n.z, 1.f, 1e-5f);
+    EXPECT_LT(meet(scene, {1, 4.1f, 10}, {0, 0, -1}).first, 0.f);
+    EXPECT_LT(meet(scene, {1, -2.1f, 10}, {0, 0, -1}).first, 0.f);
+}
+
+TEST_F(LoadScene, OutsideStaysOutsideInTheMirror) {
+    for (const char* flip : {"false", "true"}) {
+        const Scene scene = load(fmt::format(
+            R"(<shape type="cube"><boolean name="flip_normals" value="{}"/>
+            <transform name="to_world"><scale x="-2"/></transform></shape>)",
+            flip));
+        const auto [t, n] = meet(scene, {10, 0.1f, 0.2f}, {-1, 0, 0});
+        EXPECT_NEAR(t, 8.f, 1e-5f);
+        EXPECT_NEAR(n.x, std::string(flip) == "true" ? -1.f : 1.f, 1e-5f);
+    }
+}
+
+TEST_F(LoadScene, MeshesWithoutNormalsAreSmooth) {
+    // Two faces of a roof; the ridge's normal points straight up.
+    write("roof.off", "OFF\n4 2 0\n-1 0 0\n0 1 1\n0 1 -1\n1 0 0\n3 0 1 2\n3 3 2 1\n");
+    for (const bool flat : {false, true}) {
+        const Scene scene = load(fmt::format(
+            R"(<shape type="off"><string name="filename" value="roof.off"/>
+            <boolean name="face_normals" value="{}"/></shape>)",
+            flat));
+        const Ray ray{{-1e-4f, 5, 0}, {0, -1, 0}};
+        const auto hit = scene.rays.intersect(ray);
+        ASSERT_TRUE(hit);
+        const SurfacePoint at = scene.rays.surface_point(ray, *hit);
+        EXPECT_NEAR(at.shading.n.y, flat ? std::sqrt(0.5f) : 1.f, 1e-3f);
+        EXPECT_NEAR(at.ng.y, std::sqrt(0.5f), 1e-5f);
+    }
+}
+
+TEST_F(LoadScene, ShiningShapesAreBlackByDefault) {
+    const Scene scene = load(R"(<shape type="sphere"><emitter type="area"/></shape>
+        <shape type="sphere"><point name="center" x="5"/></shape>)");
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.shapes[0].light, scene.lights[0].get());
+    EXPECT_EQ(scene.shapes[1].light, nullptr);
+    const Wavelengths w = Wavelengths::rgb_bands();
+    EXPECT_EQ(scene.shapes[0].material->eval({}, {0, 0, 1}, {0, 0, 1}, w)[0], 0.f);
+    // Half of the light, over pi.
+    EXPECT_NEAR(scene.shapes[1].material->eval({}, {0, 0, 1}, {0, 0, 1}, w)[0], 0.5f / 3.14159265f,
+                1e-6f);
+}
+
+TEST_F(LoadScene, LightsSurviveMovingTheScene) {
+    Scene first = load(R"(<shape type="sphere"><emitter type="area"/></shape>)");
+    const Scene scene = std::move(first);
+    const LightSample s =
+        scene.lights[0]->sample({0, 0, 5}, {0.5f, 0.5f}, Wavelengths::rgb_bands());
+    EXPECT_GT(s.pdf, 0.f);
+    EXPECT_NEAR(s.radiance[0], 1.f, 1e-5f);
+}
+
+TEST_F(LoadScene, WavelengthDataAskForWavelengths) {
+    const char* bodies[] = {
+        R"(<emitter type="constant"><blackbody name="radiance" temperature="3000"/></emitter>)",
+        R"(<emitter type="constant"/><shape type="sphere"><bsdf type="diffuse">
+            <spectrum name="reflectance" value="400:0.1, 700:0.9"/></bsdf></shape>)",
+        R"(<emitter type="constant"/><medium type="homogeneous" id="m">
+            <spectrum name="sigma_t" value="400:1, 700:2"/></medium>)",
+    };
+    for (const char* body : bodies) EXPECT_EQ(load(body).mode, ColorMode::spectral) << body;
+    const char* rgb = R"(<emitter type="constant"><spectrum name="radiance" value="2"/></emitter>)";
+    EXPECT_EQ(load(rgb).mode, ColorMode::rgb_bands);
+    EXPECT_EQ(load_scene(folder_ / "scene.xml", {.mode = ColorMode::spectral}).mode,
+              ColorMode::spectral);
+}
+
+TEST_F(LoadScene, WarnsOfMediaThatCannotWork) {
+    const Scene scene = load(R"(<emitter type="constant"/><sensor type="perspective"/>
+        <medium type="homogeneous" id="m"/>
+        <shape type="rectangle" id="pane"><bsdf type="null"/><ref name="interior" id="m"/></shape>
+        <shape type="sphere" id="ball"><ref name="interior" id="m"/></shape>
+        <shape type="cube"><bsdf type="dielectric"/><ref name="interior" id="m"/></shape>)");
+    ASSERT_EQ(scene.warnings.size(), 2u);
+    EXPECT_NE(scene.warnings[0].find(":4:9: 'pane': "), std::string::npos) << scene.warnings[0];
+    EXPECT_TRUE(scene.warnings[1].ends_with(
+        ":5:9: 'ball': no light passes its material, so the medium inside cannot be seen"))
+        << scene.warnings[1];
+    EXPECT_EQ(scene.media.size(), 1u);
+}
+
+TEST_F(LoadScene, UnitOfLengthScalesMedia) {
+    const Scene scene = load(R"(<float name="mm_per_unit" value="10"/><emitter type="constant"/>
+        <medium type="homogeneous" id="m">
+            <float name="sigma_t" value="2"/><float name="albedo" value="0.5"/></medium>
+        <sensor type="perspective"><ref id="m"/></sensor>)");
+    ASSERT_NE(scene.camera_medium, nullptr);
+    // 2 per millimetre are 20 per unit of ten millimetres.
+    const MediumCoefficients c = scene.camera_medium->coefficients({}, Wavelengths::rgb_bands());
+    EXPECT_NEAR(c.sigma_t[0], 20.f, 1e-5f);
+    EXPECT_NEAR(c.sigma_s[0], 10.f, 1e-5f);
+}
+
+}  // namespace
+}  // namespace nacre
