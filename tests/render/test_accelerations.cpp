@@ -1,0 +1,215 @@
+// The distance grid and the guided exits of volpath change the time that a picture takes, never
+// what it shows.
+#include "nacre/geometry/figure.h"
+#include "nacre/geometry/mesh_build.h"
+#include "tests/geometry/shapes.h"
+#include "tests/render/render_fixture.h"
+
+namespace nacre {
+namespace {
+
+/// What the object is seen from: the camera's rays cover a region of it.
+struct Region {
+    std::string name;
+    RayMaker rays;
+};
+
+class Accelerations : public RenderTest {
+  protected:
+    /// A shell-shaped ellipsoid as a coarse mesh: half axes 1, 0.8 and 0.2, so its rim is thin.
+    /// With normals its surface looks smooth and shading and geometry disagree by degrees.
+    std::string lens() const {
+        constexpr int columns = 24, rows = 12;
+        std::ofstream out(folder_ / "lens.obj");
+        const auto vertex = [](int i, int j) {
+            const double theta = pi * j / rows, phi = 2 * pi * i / columns;
+            return Vec3d(std::sin(theta) * std::cos(phi), std::cos(theta),
+                         -std::sin(theta) * std::sin(phi));
+        };
+        for (const bool normals : {false, true})
+            for (int j = 0; j <= rows; ++j)
+                for (int i = 0; i < columns; ++i) {
+                    const Vec3d v = vertex(i, j);
+                    if (normals)
+                        out << fmt::format("vn {} {} {}\n", v.x / 1, v.y / 0.8, v.z / 0.2);
+                    else
+                        out << fmt::format("v {} {} {}\n", v.x * 1, v.y * 0.8, v.z * 0.2);
+                }
+        const auto index = [](int i, int j) { return j * columns + i % columns + 1; };
+        const auto face = [&](int a, int b, int c) {
+            out << fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", a, b, c);
+        };
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) {
+                const int a = index(i, j), b = index(i, j + 1), c = index(i + 1, j + 1),
+                          d = index(i + 1, j);
+                if (j + 1 < rows) face(a, b, c);
+                if (j > 0) face(a, c, d);
+            }
+        return "<string name=\"filename\" value=\"lens.obj\"/>";
+    }
+    static std::string body_of(const std::string& phase) {
+        return xml::dielectric(1.4) +
+               xml::medium("interior", xml::rgb("sigma_t", {6, 10, 16}) +
+                                           xml::rgb("albedo", {0.99, 0.95, 0.8}) + phase);
+    }
+    static std::string accelerated(bool grid, bool guided) {
+        return xml::integrator(
+            "volpath", xml::flag("distance_grid", grid) + xml::flag("guided_exits", guided));
+    }
+    static std::map<std::string, std::string> lights() {
+        // A square in the plane z = -3 that faces the object.
+        const std::string square =
+            xml::shape("rectangle",
+                       "<transform name=\"to_world\"><scale value=\"0.7\"/>"
+                       "<translate x=\"0.8\" y=\"0.5\" z=\"-3\"/></transform>" +
+                           xml::area_light({9, 7, 5}));
+        const std::string ball = xml::sphere({-1, 0.6, -2.5}, 0.5, xml::area_light({6, 8, 10}));
+        return {{"square", square},
+                {"ball", ball},
+                {"two lights and sky", square + ball + xml::constant_light(0.3)}};
+    }
+    /// Camera in front, light behind: the rim lets light through, the middle is thick; and from
+    /// behind, where the light falls on.
+    static std::vector<Region> regions() {
+        return {{"rim", ray_bundle({0.9f, 0, 4}, {0, 0, -1}, 0.12f)},
+                {"middle", ray_bundle({0, 0, 4}, {0, 0, -1}, 0.3f)},
+                {"lit", ray_bundle({0.2f, 0, -2.2f}, {0, 0, 1}, 0.3f)}};
+    }
+    void compare_guided(const std::string& what, const std::string& objects,
+                        const std::vector<Region>& regions, ColorMode mode, int pixels,
+                        double deviations) {
+        const Scene with = scene(accelerated(true, true) + objects, mode);
+        const Scene without = scene(accelerated(true, false) + objects, mode);
+        const auto guided = make_integrator(with), plain = make_integrator(without);
+        for (const Region& region : regions) {
+            const auto a = estimate(with, *guided, region.rays, {.pixels = pixels, .seed = 21});
+            const auto b = estimate(without, *plain, region.rays, {.pixels = pixels, .seed = 22});
+            expect_agreement(a, b, deviations, what + ", " + region.name);
+            EXPECT_GT(a.mean[0], 0) << what << ", " << region.name;
+        }
+    }
+};
+
+// The grid only leaves out rays that could not have met anything, so each path stays itself.
+TEST_F(Accelerations, TheGridLeavesEachPathItself) {
+    for (const bool smooth : {false, true})
+        for (const std::string light : {"square", "two lights and sky"}) {
+            const std::string objects =
+                xml::shape("obj", lens() + xml::flag("face_normals", !smooth) +
+                                      body_of(xml::phase("hg", 0.6))) +
+                lights().at(light);
+            const Scene with = scene(accelerated(true, false) + objects);
+            const Scene without = scene(accelerated(false, false) + objects);
+            const auto fast = make_integrator(with), slow = make_integrator(without);
+            for (const Region& region : regions()) {
+                const auto a = estimate(with, *fast, region.rays, {.pixels = 300});
+                const auto b = estimate(without, *slow, region.rays, {.pixels = 300});
+                EXPECT_EQ(a.values, b.values) << light << ", " << region.name;
+            }
+            // And it does leave out rays.
+            RayCounts few, many;
+            Sampler sampler(Sampler::Kind::independent, 1, 1);
+            for (std::uint32_t i = 0; i < 200; ++i) {
+                const Ray ray{{0.1f, 0, 4}, {0, 0, -1}};
+                sampler.start(i, 0);
+                fast->radiance(ray, sampler, Wavelengths::rgb_bands(), few);
+                sampler.start(i, 0);
+                slow->radiance(ray, sampler, Wavelengths::rgb_bands(), many);
+            }
+            EXPECT_EQ(few.scatterings, many.scatterings);
+            EXPECT_LT(few.rays, 0.9 * double(many.rays));
+        }
+}
+
+TEST_F(Accelerations, GuidedExitsLeaveTheMean) {
+    const double deviations = sidak_deviations(5 * 3 * 3);
+    const auto object = [&](bool smooth, const std::string& phase) {
+        return xml::shape("obj", lens() + xml::flag("face_normals", !smooth) + body_of(phase));
+    };
+    const std::string isotropic = xml::phase("isotropic"), hg = xml::phase("hg", 0.6);
+    const auto all = lights();
+    compare_guided("face normals, square, isotropic", object(false, isotropic) + all.at("square"),
+                   regions(), ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("smooth normals, ball, hg", object(true, hg) + all.at("ball"), regions(),
+                   ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("smooth normals, two lights, isotropic",
+                   object(true, isotropic) + all.at("two lights and sky"), regions(),
+                   ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("face normals, ball, isotropic, spectral",
+                   object(false, isotropic) + all.at("ball"), regions(), ColorMode::spectral, 5000,
+                   deviations);
+    compare_guided("analytic sphere, square, hg",
+                   xml::sphere({}, 0.5, body_of(hg)) + all.at("square"),
+                   {{"front", ray_bundle({0, 0, 4}, {0, 0, -1}, 0.4f)},
+                    {"back", ray_bundle({0, 0, -2.2f}, {0, 0, 1}, 0.4f)}},
+                   ColorMode::rgb_bands, 5000, deviations);
+}
+
+// What guided exits are there for: a small light, which walks hardly ever find by themselves, and
+// an object that is nearly flat over a free path.
+TEST_F(Accelerations, GuidedExitsLowerTheNoise) {
+    const std::string objects = xml::sphere({}, 4, body_of(xml::phase("isotropic"))) +
+                                xml::sphere({5, 6, 9}, 0.5, xml::area_light({100, 100, 100}));
+    const Scene with = scene(accelerated(true, true) + objects);
+    const Scene without = scene(accelerated(true, false) + objects);
+    // Off the light's mirror image.
+    const RayMaker rays = ray_bundle({-0.5f, -0.5f, 6}, {0, 0, -1}, 0.1f);
+    const auto a = estimate(with, rays, {.pixels = 2000}),
+               b = estimate(without, rays, {.pixels = 2000});
+    for (int c = 0; c < 3; ++c) EXPECT_LT(3 * a.error[c], b.error[c]);
+}
+
+using LongAccelerations = Accelerations;
+TEST_F(LongAccelerations, GuidedExitsLeaveTheMean) {
+    const double deviations = sidak_deviations(2 * 2 * 2 * 3 * 3 * 3);
+    for (const bool smooth : {false, true})
+        for (const std::string& phase : {xml::phase("isotropic"), xml::phase("hg", 0.6)})
+            for (const ColorMode mode : {ColorMode::rgb_bands, ColorMode::spectral})
+                for (const auto& [light, text] : lights())
+                    compare_guided(
+                        fmt::format("{}, {}, {}, {}", smooth ? "smooth" : "faces", light, phase,
+                                    mode == ColorMode::spectral ? "spectral" : "rgb"),
+                        xml::shape("obj",
+                                   lens() + xml::flag("face_normals", !smooth) + body_of(phase)) +
+                            text,
+                        regions(), mode, 60000, deviations);
+}
+
+// The built-in figure with its thin ears, lit from behind, seen from the front.
+TEST_F(LongAccelerations, GuidedExitsLeaveTheMeanOfTheFigure) {
+    Mesh mesh = make_figure(6.f);
+    std::ofstream out(folder_ / "figure.obj");
+    for (const Point3f& p : mesh.positions) out << fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+    for (const Vec3f& n : mesh.normals) out << fmt::format("vn {} {} {}\n", n.x, n.y, n.z);
+    for (const auto& t : mesh.triangles)
+        out << fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    out.close();
+    const Box3f box = figure_box();
+    const Point3f c = box.center();
+    const Vec3f half = box.diagonal() * 0.5f;
+    const auto light = xml::sphere({c.x, c.y + half.y, c.z - 3 * half.y}, 0.4 * half.y,
+                                   xml::area_light({20, 20, 20}));
+    std::vector<Region> parts;
+    for (int i = 0; i < 6; ++i) {
+        const float x = c.x + half.x * (-0.75f + 0.5f * float(i % 3) * 1.5f);
+        const float y = c.y + half.y * (i < 3 ? 0.6f : -0.3f);
+        parts.push_back({fmt::format("part {}", i),
+                         ray_bundle({x, y, c.z + 4 * half.y}, {0, 0, -1}, 0.15f * half.x)});
+    }
+    const double deviations = sidak_deviations(2 * 6 * 3);
+    for (const bool smooth : {false, true}) {
+        const std::string objects =
+            xml::shape("obj",
+                       "<string name=\"filename\" value=\"figure.obj\"/>" +
+                           xml::flag("face_normals", !smooth) + xml::dielectric(1.4) +
+                           xml::medium("interior", xml::rgb("sigma_t", {0.3, 0.5, 0.8}) +
+                                                       xml::rgb("albedo", {0.99, 0.98, 0.9}))) +
+            light + xml::constant_light(0.05);
+        compare_guided(smooth ? "figure, smooth" : "figure, faces", objects, parts,
+                       ColorMode::rgb_bands, 10000, deviations);
+    }
+}
+
+}  // namespace
+}  // namespace nacre
