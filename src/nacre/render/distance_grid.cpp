@@ -46,7 +46,7 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
                         origin_ + Vec3f(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f) * size_;
                     const float offset = length(c - middle);
                     // The triangle inequality bounds the distance from both sides. Deep inside, the
-                    // lower bound is good enough (within a factor of two); nearer the surface the
+                    // lower bound is good enough (within a factor of three); nearer the surface the
                     // upper one shortens the search.
                     float distance = middle_distance - offset;
                     if (distance < offset) {
