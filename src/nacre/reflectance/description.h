@@ -1,0 +1,122 @@
+#pragma once
+// What a model says of itself: the manual page from which the scene reader, the command line, the
+// checks and the documentation are driven. Plain data, given once, in the model's own file.
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nacre {
+
+enum class ParameterKind {
+    spectrum,    ///< a number a wavelength (colour); member of type P
+    scalar,      ///< one number for all wavelengths (shape); member of type S
+    choice,      ///< one of named options; member of an enum type, in the order of `choices`
+    integer,     ///< a whole number; member of type int
+    wavelength,  ///< the wavelength itself, nm, given by who evaluates; member of type P
+};
+
+struct Choice {
+    std::string_view name;
+    std::string_view meaning;
+    std::vector<std::string_view> aliases = {};  ///< words of other renderers and of the vectors
+};
+
+struct Parameter {
+    std::string_view name;
+    std::string_view meaning;
+    ParameterKind kind = ParameterKind::scalar;
+    std::string_view unit = "";  ///< empty: none
+    double low = 0., high = 1.;  ///< the range, both ends included unless `above_low`
+    bool above_low = false;      ///< `low` itself is not allowed
+    double otherwise = 0.;       ///< default; of a choice, its position
+    std::vector<Choice> choices = {};
+    /// Other names that mean this parameter: those of other renderers, of the vectors. An alias
+    /// that several parameters list sets all of them.
+    std::vector<std::string_view> aliases = {};
+};
+
+/// A sum of spectra that must not exceed 1, lest energy appear from nowhere.
+struct SumBound {
+    std::vector<std::string_view> parameters;
+};
+
+enum class Energy {
+    conserves,  ///< the albedo is at most 1 for every direction and all allowed parameters
+    exceeds,    ///< somewhere the albedo is above 1
+};
+
+/// How the model behaves with given options, as claims that the checks put to the test.
+struct Behaviour {
+    std::string_view options = "";  ///< settings that choose it, "variant=classic"; empty: always
+    bool reciprocal = true;
+    Energy energy = Energy::conserves;
+    std::string_view energy_note = "";  ///< for which parameters, how far
+    /// exceeds: settings, and the angle of incidence in degrees, at which the albedo is above 1.
+    std::string_view witness = "";
+    double witness_degrees = 0.;
+    /// Settings (beside the options) at which the checks look; at least one.
+    std::vector<std::string_view> examples = {};
+};
+
+/// A group of the reference vectors that this model answers.
+struct ReferenceGroup {
+    std::string_view name;           ///< as in the file
+    std::string_view settings = "";  ///< beside those of the vector; they win over it
+    bool pdf = false;  ///< the group holds densities: of wo, for a given wi, instead of values
+    /// Parameters of the vectors that mean nothing here, such as tags of the formula.
+    std::vector<std::string_view> ignored = {};
+};
+
+struct ModelDescription {
+    std::string_view name;   ///< in scene files and on the command line: lower case, underscores
+    std::string_view title;  ///< as the field says
+    std::string_view authors;
+    int year = 0;
+    std::string_view paper;      ///< title, where it appeared
+    std::string_view equations;  ///< numbers in the paper
+    std::string_view formula;    ///< as text, one line a string line
+    std::vector<Parameter> parameters;
+    std::vector<SumBound> bounds = {};
+    std::vector<Behaviour> behaviours;
+    std::string_view isotropy = "isotropic";
+    std::string_view sampling;
+    std::string_view albedo = "";               ///< what is known in closed form
+    std::vector<std::string_view> errata = {};  ///< of the literature, and what is done about them
+    std::vector<std::string_view> references = {};
+    std::vector<ReferenceGroup> groups = {};
+};
+
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The parameters that many models share.
+
+/// Diffuse albedo.
+inline Parameter diffuse_parameter(double otherwise) {
+    return {.name = "kd",
+            .meaning = "diffuse albedo",
+            .kind = ParameterKind::spectrum,
+            .otherwise = otherwise,
+            .aliases = {"diffuse_reflectance", "diffuseReflectance"}};
+}
+/// Weight of the highlight.
+inline Parameter specular_parameter(double otherwise) {
+    return {.name = "ks",
+            .meaning = "weight of the highlight",
+            .kind = ParameterKind::spectrum,
+            .otherwise = otherwise,
+            .aliases = {"specular_reflectance", "specularReflectance"}};
+}
+inline Parameter choice_parameter(std::string_view name, std::string_view meaning,
+                                  std::vector<Choice> choices, int otherwise = 0,
+                                  std::vector<std::string_view> aliases = {}) {
+    return {.name = name,
+            .meaning = meaning,
+            .kind = ParameterKind::choice,
+            .high = double(choices.size()) - 1.,
+            .otherwise = double(otherwise),
+            .choices = std::move(choices),
+            .aliases = std::move(aliases)};
+}
+
+}  // namespace nacre

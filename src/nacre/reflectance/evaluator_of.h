@@ -1,0 +1,140 @@
+#pragma once
+// From a model to its evaluator. Heavy: only the files that instantiate models include it.
+#include "nacre/math/lanes_wide.h"
+#include "nacre/reflectance/evaluator.h"
+#include "nacre/reflectance/model.h"
+
+namespace nacre {
+
+/// A model of given number types with its parameters set.
+template <template <class, class, class> class Model, class D, class P, class S, class C, class V>
+Model<D, P, S> make_model_of(const Values<C, V>& values) {
+    Model<D, P, S> model{};
+    int i = 0;
+    Model<D, P, S>::parameters(model, [&]<class T>(std::string_view, T& member) {
+        if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>)
+            member = static_cast<T>(values.option[i]);
+        else if constexpr (std::is_same_v<T, C>)
+            member = values.color[i];
+        else
+            member = values.scalar[i];
+        ++i;
+    });
+    if constexpr (requires { model.prepare(); }) model.prepare();
+    return model;
+}
+
+namespace evaluator_detail {
+
+/// N vectors as three packs.
+inline Vec3<Wide> load(const Vec3f* v) {
+    Vec3<Wide> r;
+    for (int i = 0; i < Wide::size; ++i) {
+        r.x.v[i] = v[i].x;
+        r.y.v[i] = v[i].y;
+        r.z.v[i] = v[i].z;
+    }
+    return r;
+}
+
+}  // namespace evaluator_detail
+
+template <template <class, class, class> class Model>
+class EvaluatorOf final : public Evaluator {
+    using Double = Model<double, double, double>;
+    using Float = Model<float, float, float>;
+    using Four = Model<float, Spectral, float>;
+    using Bulk = Model<Wide, float, float>;
+
+    static Double make(const ValuesD& v) { return make_model_of<Model, double, double, double>(v); }
+    static Float make(const ValuesF& v) { return make_model_of<Model, float, float, float>(v); }
+    static Four make(const ValuesS& v) { return make_model_of<Model, float, Spectral, float>(v); }
+
+  public:
+    const ModelDescription& description() const override { return Double::describe(); }
+
+    double eval(const ValuesD& v, const Vec3d& wi, const Vec3d& wo) const override {
+        return make(v).eval(wi, wo);
+    }
+    float eval(const ValuesF& v, const Vec3f& wi, const Vec3f& wo) const override {
+        return make(v).eval(wi, wo);
+    }
+    Spectral eval(const ValuesS& v, const Vec3f& wi, const Vec3f& wo) const override {
+        return make(v).eval(wi, wo);
+    }
+    void eval_many(const ValuesF& v, std::span<const Vec3f> wi, std::span<const Vec3f> wo,
+                   std::span<float> out) const override {
+        const Bulk model = make_model_of<Model, Wide, float, float>(v);
+        constexpr std::size_t n = Wide::size;
+        std::size_t i = 0;
+        for (; i + n <= out.size(); i += n) {
+            const Wide f =
+                model.eval(evaluator_detail::load(&wi[i]), evaluator_detail::load(&wo[i]));
+            f.store(&out[i]);
+        }
+        if (i == out.size()) return;
+        std::array<Vec3f, n> a, b;
+        a.fill({0.f, 0.f, 1.f});
+        b.fill({0.f, 0.f, 1.f});
+        std::copy(wi.begin() + i, wi.begin() + out.size(), a.begin());
+        std::copy(wo.begin() + i, wo.begin() + out.size(), b.begin());
+        const Wide f = model.eval(evaluator_detail::load(&a[0]), evaluator_detail::load(&b[0]));
+        for (std::size_t k = 0; i < out.size(); ++i, ++k) out[i] = f[int(k)];
+    }
+    void eval_each(const ValuesF& v, std::span<const Vec3f> wi, std::span<const Vec3f> wo,
+                   std::span<float> out) const override {
+        const Float model = make(v);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = model.eval(wi[i], wo[i]);
+    }
+
+    Vec3f sample(const ValuesS& v, const Vec3f& wo, float u1, Vec2f u2) const override {
+        const Four model = make(v);
+        if constexpr (requires { model.sample(wo, u1, u2); })
+            return model.sample(wo, u1, u2);
+        else
+            return model.sample(wo, u2);
+    }
+    float pdf(const ValuesS& v, const Vec3f& wi, const Vec3f& wo) const override {
+        return make(v).pdf(wi, wo);
+    }
+    double pdf(const ValuesD& v, const Vec3d& wi, const Vec3d& wo) const override {
+        return make(v).pdf(wi, wo);
+    }
+
+    bool has_mirror() const override {
+        return requires(const Double& m, Vec3d w) { m.mirror(w); };
+    }
+    Spectral mirror(const ValuesS& v, const Vec3f& wo) const override {
+        if constexpr (requires(const Four& m) { m.mirror(wo); })
+            return make(v).mirror(wo);
+        else
+            return (void)v, (void)wo, Spectral(0.f);
+    }
+    double mirror(const ValuesD& v, const Vec3d& wo) const override {
+        if constexpr (requires(const Double& m) { m.mirror(wo); })
+            return make(v).mirror(wo);
+        else
+            return (void)v, (void)wo, 0.;
+    }
+    float mirror_probability(const ValuesS& v, const Vec3f& wo) const override {
+        if constexpr (requires(const Four& m) { m.mirror_probability(wo); })
+            return make(v).mirror_probability(wo);
+        else
+            return (void)v, (void)wo, 0.f;
+    }
+
+    std::optional<double> albedo(const ValuesD& v, const Vec3d& wi) const override {
+        if constexpr (requires(const Double& m) { m.albedo(wi); })
+            return make(v).albedo(wi);
+        else
+            return (void)v, (void)wi, std::nullopt;
+    }
+};
+
+template <template <class, class, class> class Model>
+const Evaluator& evaluator_of() {
+    static const EvaluatorOf<Model> evaluator;
+    return evaluator;
+}
+
+}  // namespace nacre

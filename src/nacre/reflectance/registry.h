@@ -1,0 +1,111 @@
+#pragma once
+// Models by name: what the scene reader, the command line, the checks and the documentation use.
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "nacre/reflectance/evaluator.h"
+#include "nacre/spectrum/spectrum.h"
+
+namespace nacre {
+
+/// The descriptions of all models, in the order of models.h.
+const std::vector<const ModelDescription*>& models();
+/// The evaluator of a model; throws InputError with the nearest name if there is none.
+const Evaluator& find_evaluator(std::string_view name);
+
+/// What a parameter is set to: a number, a word (of a choice), or a spectrum.
+using SettingValue = std::variant<double, std::string, SpectrumPtr>;
+struct Setting {
+    std::string name;
+    SettingValue value;
+};
+using Settings = std::vector<Setting>;
+
+/// Settings from text: "variant=duer alpha=0.2 ks=0.1,0.3,0.2"; three numbers are a linear RGB
+/// colour. Throws InputError if something is not name=value.
+Settings parse_settings(std::string_view text);
+/// One of them, "alpha=0.2".
+Setting parse_setting(std::string_view text);
+
+/// Whether sums such as kd + ks <= 1 are enforced, or only the range of each parameter.
+enum class Bounds { enforced, ranges_only };
+
+/// Positions of the parameters that `name` means: itself, or all that have it as an alias. Throws
+/// InputError with the nearest name if there is none.
+std::vector<int> find_parameters(const ModelDescription& model, std::string_view name);
+/// Position of a choice by its name or alias; throws InputError.
+int find_choice(const ModelDescription& model, const Parameter& parameter, std::string_view word);
+/// Throws InputError unless the number is within the range of the parameter (NaN is not); whole for
+/// integers.
+void check_range(const ModelDescription& model, const Parameter& parameter, double value);
+/// How messages and manual pages write a range: "(0, 10]".
+std::string range_text(const Parameter& parameter);
+
+/// What models that depend on the wavelength see where the lanes are red, green and blue: the
+/// dominant wavelengths of the sRGB primaries under D65 (611.4, 549.1, 464.2 nm; CIE 1931).
+Spectral band_wavelengths();
+
+/// A model with its parameters set.
+class AnyModel {
+  public:
+    /// Parameters that are not given keep their defaults. Throws InputError for an unknown name or
+    /// word, one given twice, a value out of range, and sums that exceed their bound.
+    AnyModel(const Evaluator& evaluator, const Settings& settings,
+             Bounds bounds = Bounds::enforced);
+
+    const ModelDescription& description() const { return evaluator_->description(); }
+    const Evaluator& evaluator() const { return *evaluator_; }
+
+    /// BRDF in sr^-1 at one wavelength (nm).
+    double eval(const Vec3d& wi, const Vec3d& wo, double nm = 550.) const {
+        return evaluator_->eval(values_double(nm), wi, wo);
+    }
+    float eval(const Vec3f& wi, const Vec3f& wo, float nm = 550.f) const {
+        return evaluator_->eval(values_float(nm), wi, wo);
+    }
+    Spectral eval(const Vec3f& wi, const Vec3f& wo, const Wavelengths& w) const {
+        return evaluator_->eval(values(w), wi, wo);
+    }
+    /// Many pairs of directions at one wavelength, in packs. Throws InputError unless the spans
+    /// have equal lengths.
+    void eval_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out,
+                   float nm = 550.f) const;
+
+    Vec3f sample(const Vec3f& wo, float u1, Vec2f u2, float nm = 550.f) const {
+        return evaluator_->sample(values(at(nm)), wo, u1, u2);
+    }
+    double pdf(const Vec3d& wi, const Vec3d& wo, double nm = 550.) const {
+        return evaluator_->pdf(values_double(nm), wi, wo);
+    }
+    /// Share of the light that is mirrored without blur; 0 for models without.
+    double mirror(const Vec3d& wo, double nm = 550.) const {
+        return evaluator_->mirror(values_double(nm), wo);
+    }
+    /// Albedo of light from wi, without the mirror part, if a closed form is known.
+    std::optional<double> albedo(const Vec3d& wi, double nm = 550.) const {
+        return evaluator_->albedo(values_double(nm), wi);
+    }
+
+    /// The flat list of values that the evaluator takes.
+    ValuesD values_double(double nm) const;
+    ValuesF values_float(float nm) const;
+    ValuesS values(const Wavelengths& w) const;
+
+  private:
+    static Wavelengths at(float nm);
+
+    struct Value {
+        double number = 0.;
+        SpectrumPtr spectrum;  ///< instead of the number, if given
+    };
+    const Evaluator* evaluator_;
+    std::vector<Value> values_;
+};
+
+/// A model by name. Throws InputError as find_evaluator and AnyModel do.
+AnyModel make_model(std::string_view name, const Settings& settings = {},
+                    Bounds bounds = Bounds::enforced);
+
+}  // namespace nacre
