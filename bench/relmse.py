@@ -117,7 +117,8 @@ def main():
     print(f"{'relMSE':20} {error:.5f}   ({len(mask)} pixels)")
 
 
-try:
-    main()
-except (OSError, ValueError, struct.error, zlib.error) as problem:
-    sys.exit(f"relmse.py: {problem}")
+if __name__ == "__main__":
+    try:
+        main()
+    except (OSError, ValueError, struct.error, zlib.error) as problem:
+        sys.exit(f"relmse.py: {problem}")

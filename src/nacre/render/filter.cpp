@@ -27,7 +27,7 @@ double mitchell(double x, double b, double c) {
 
 }  // namespace
 
-Filter::Filter(const FilterSettings& settings) : settings_(settings) {
+Filter::Filter(const FilterSettings& settings) : settings_(settings), box_(settings.type == "box") {
     const float otherwise = default_radius(settings);
     radius_ = settings.radius == 0.f ? otherwise : settings.radius;
     if (!(radius_ > 0.f) || !std::isfinite(radius_))
@@ -74,6 +74,7 @@ double Filter::shape(double x) const {
 float Filter::eval(float x) const { return static_cast<float>(shape(x)) * scale_; }
 
 std::pair<float, bool> Filter::sample1d(float u) const {
+    if (box_) return {radius_ * (2.f * u - 1.f), false};
     const auto it = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u);
     const int i = static_cast<int>(it - cdf_.begin()) - 1;
     const float mass = cdf_[i + 1] - cdf_[i];

@@ -41,6 +41,7 @@ class Filter {
     std::pair<float, bool> sample1d(float u) const;
 
     FilterSettings settings_;
+    bool box_;  ///< needs no table
     float radius_;
     float scale_;     ///< of the shape, to make its integral 1
     float absolute_;  ///< integral of |f(x)|

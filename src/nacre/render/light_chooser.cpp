@@ -1,6 +1,7 @@
 #include "nacre/render/light_chooser.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace nacre {
@@ -56,11 +57,16 @@ float LightChooser::mixed(float importance, float total) const {
 
 LightChooser::Choice LightChooser::choose(const Point3f& from, float u) const {
     if (entries_.empty()) return {};
-    const float sum = total(from);
+    if (entries_.size() == 1) return {entries_.front().light, 1.f};
+    std::array<float, max_ranked> ranked;
+    const bool rank = entries_.size() <= max_ranked;
+    float sum = 0.f;
+    for (std::size_t i = 0; rank && i < entries_.size(); ++i)
+        sum += ranked[i] = importance(entries_[i], from);
     float p = 0.f;
-    for (const Entry& entry : entries_) {
-        p = mixed(importance(entry, from), sum);
-        if (u < p) return {entry.light, p};
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        p = rank ? mixed(ranked[i], sum) : mixed(entries_[i].by_power, 1.f);
+        if (u < p) return {entries_[i].light, p};
         u -= p;
     }
     return {entries_.back().light, p};  // rounding left a little over
@@ -69,6 +75,7 @@ LightChooser::Choice LightChooser::choose(const Point3f& from, float u) const {
 float LightChooser::probability(const Point3f& from, const Light* light) const {
     const auto it = std::ranges::lower_bound(entries_, light, std::less<>{}, &Entry::light);
     if (it == entries_.end() || it->light != light) return 0.f;
+    if (entries_.size() == 1) return 1.f;
     return mixed(importance(*it, from), total(from));
 }
 

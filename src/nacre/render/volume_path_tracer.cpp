@@ -9,8 +9,8 @@ namespace nacre {
 
 namespace {
 
-// The finest the distance grid gets: 192 cells along the longest side are about 40 MB.
-constexpr int max_grid_cells = 192;
+// The finest the distance grid gets: 128 cells along the longest side are about 10 MB.
+constexpr int max_grid_cells = 128;
 // Cells much smaller than a mean free path tell the walk nothing.
 constexpr float cell_in_free_paths = 0.5f;
 
