@@ -8,6 +8,8 @@
 
 namespace nacre {
 
+struct Setting;  // registry.h
+
 enum class ParameterKind {
     spectrum,    ///< a number a wavelength (colour); member of type P
     scalar,      ///< one number for all wavelengths (shape); member of type S
@@ -66,6 +68,11 @@ struct ReferenceGroup {
     bool pdf = false;  ///< the group holds densities: of wo, for a given wi, instead of values
     /// Parameters of the vectors that mean nothing here, such as tags of the formula.
     std::vector<std::string_view> ignored = {};
+    /// What names alone cannot say: rewrites the settings of a vector (nested lists are flattened,
+    /// "lobes_0_C_2") to the parameters of the model.
+    void (*adapt)(std::vector<Setting>& settings) = nullptr;
+    double tolerance = 1e-9;    ///< relative, in double precision; what the file states
+    bool albedos_only = false;  ///< a name of the file's table of albedos, without vectors
 };
 
 struct ModelDescription {

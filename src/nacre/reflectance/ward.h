@@ -98,6 +98,10 @@ inline const ModelDescription& ward_description() {
                    {.name = "ward_fast"},
                    {.name = "ward_duer"},
                    {.name = "ward_gmd"},
+                   {.name = "ward_original", .albedos_only = true},
+                   {.name = "ward_original_aniso", .albedos_only = true},
+                   {.name = "ward_duer_aniso", .albedos_only = true},
+                   {.name = "ward_gmd_aniso", .albedos_only = true},
                    {.name = "pdf_ward", .settings = "kd=0 ks=1", .pdf = true}},
     };
     return description;

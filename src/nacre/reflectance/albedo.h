@@ -1,0 +1,26 @@
+#pragma once
+// Integrals over the hemisphere, by adaptive quadrature: albedos and masses of densities.
+#include <functional>
+
+#include "nacre/reflectance/registry.h"
+
+namespace nacre {
+
+struct Integral {
+    double value = 0.;
+    double error = 0.;  ///< estimate: the sum of what the last refinements changed
+};
+using Albedo = Integral;
+
+/// Integral of f over the directions of the upper hemisphere, per solid angle. Cells in polar
+/// coordinates about the normal, first split at the polar angle and the azimuths where lobes of
+/// light from `wi` and kinks of models lie, then wherever a 7 x 7 Gauss rule and its four quarters
+/// differ most, until the differences sum to less than `tolerance` or 20000 cells are reached.
+Integral integrate_hemisphere(const std::function<double(const Vec3d&)>& f, const Vec3d& wi,
+                              double tolerance = 1e-8);
+
+/// Share of the light from wi that the model scatters, without its mirror part.
+Albedo directional_albedo(const AnyModel& model, const Vec3d& wi, double nm = 550.,
+                          double tolerance = 1e-8);
+
+}  // namespace nacre
