@@ -1,0 +1,46 @@
+#pragma once
+// Model 16, Blinn's highlight fading with the viewer's distance (Foley and van Dam 1984).
+//
+//   J. D. Foley, A. van Dam 1984, Fundamentals of Interactive Computer Graphics (year not
+//   verified). I_s = k_s <H, N>^m I_L / (|V| + d_k)
+//
+// Parameters: ks, 0..1; m >= 0; dk > 0, in units of length. Not a BRDF because of |V|; else model
+// 15, with its erratum.
+#include "nacre/illumination/m15_blinn_phong.h"
+
+namespace nacre::illumination {
+
+inline constexpr Parameter foley_van_dam_blinn_parameters[] = {
+    specular_coefficient, highlight_exponent, distance_constant};
+inline constexpr Description foley_van_dam_blinn_description = {
+    .number = 16,
+    .name = "foley_van_dam_blinn",
+    .title = "Blinn-Phong, fading linearly with viewer distance",
+    .authors = "J. D. Foley, A. van Dam",
+    .year = 1984,
+    .source = "Fundamentals of Interactive Computer Graphics",
+    .formula = "I_s = k_s <H, N>^m I_L / (|V| + d_k)",
+    .part = Part::specular,
+    .parameters = foley_van_dam_blinn_parameters,
+    .uses_viewer_distance = true,
+    .properties = "not a BRDF: depends on |V|",
+    .errata = "H is printed as (L + V) / 2, without normalisation",
+};
+
+template <class D, class P = D>
+struct FoleyVanDamBlinn {
+    static constexpr const Description& description = foley_van_dam_blinn_description;
+
+    P ks;
+    D m, dk;
+
+    template <class R>
+    static FoleyVanDamBlinn from(const R& r) {
+        return {r.spectrum(0), r.number(1), r.number(2)};
+    }
+    Product<D, P> intensity(const Lighting<D, P>& at) const {
+        return BlinnPhong<D, P>{ks, m}.intensity(at) * (D(1) / (at.viewer_distance + dk));
+    }
+};
+
+}  // namespace nacre::illumination
