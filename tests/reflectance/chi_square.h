@@ -9,29 +9,9 @@
 
 #include "nacre/math/quadrature.h"
 #include "nacre/math/random.h"
+#include "nacre/math/statistics.h"
 
 namespace nacre::test {
-
-/// Q(a, x), the upper regularised incomplete gamma function: series below a + 1, Lentz's continued
-/// fraction above (W. H. Press et al., Numerical Recipes, section 6.2).
-inline double gamma_q(double a, double x) {
-    if (x <= 0.) return 1.;
-    const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
-    if (x < a + 1.) {
-        double term = 1. / a, sum = term;
-        for (int n = 1; n < 1000; ++n) sum += (term *= x / (a + n));
-        return 1. - sum * front;
-    }
-    double b = x + 1. - a, c = 1e300, d = 1. / b, h = d;
-    for (int n = 1; n < 1000; ++n) {
-        const double an = -n * (n - a);
-        b += 2.;
-        d = 1. / (an * d + b);
-        c = b + an / c;
-        h *= c * d;
-    }
-    return front * h;
-}
 
 struct ChiSquareResult {
     double p = 0.;         ///< probability of a worse fit by chance
