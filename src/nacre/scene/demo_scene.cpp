@@ -64,7 +64,7 @@ NodePtr camera(int width, int height) {
     set(film, "height", "integer", std::int64_t{height});
     add(camera, film);
     auto sampler = make_node("sampler", "sobol");
-    set(sampler, "sample_count", "integer", std::int64_t{32});
+    set(sampler, "sample_count", "integer", std::int64_t{48});
     add(camera, sampler);
     return camera;
 }
