@@ -1,4 +1,5 @@
 // What users get to read when a material's parameters are wrong.
+#include "nacre/reflectance/registry.h"
 #include "tests/scene/material_fixture.h"
 
 namespace nacre {
@@ -17,15 +18,22 @@ struct WrongMaterial {
     std::string message;
 };
 
+std::vector<std::string_view> model_names() {
+    std::vector<std::string_view> names;
+    for (const ModelDescription* m : models()) names.push_back(m->name);
+    return names;
+}
+
 TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto diffuse = bsdf("diffuse");
     const WrongMaterial wrong[] = {
         {bsdf("difuse"), "test.xml:1:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
         {bsdf("xyzzy"),
-         "test.xml:1:1: unknown bsdf type 'xyzzy'; known are: conductor, dielectric, diffuse, "
-         "mask, "
-         "null, plastic, roughconductor, roughdielectric, roughplastic, thindielectric, twosided"},
+         fmt::format("test.xml:1:1: unknown bsdf type 'xyzzy'; known are: conductor, dielectric, "
+                     "diffuse, mask, null, plastic, roughconductor, roughdielectric, roughplastic, "
+                     "thindielectric, twosided, {}",
+                     fmt::join(model_names(), ", "))},
         {bsdf("diffuse", {number("reflectence", 0.5)}),
          "test.xml:2:5: <bsdf type=\"diffuse\"> has no parameter 'reflectence'; did you mean "
          "'reflectance'?"},

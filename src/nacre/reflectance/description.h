@@ -15,7 +15,7 @@ enum class ParameterKind {
     scalar,      ///< one number for all wavelengths (shape); member of type S
     choice,      ///< one of named options; member of an enum type, in the order of `choices`
     integer,     ///< a whole number; member of type int
-    wavelength,  ///< the wavelength itself, nm, given by who evaluates; member of type P
+    wavelength,  ///< the wavelength itself, nm; 0, the default, is that of the light; type P
 };
 
 struct Choice {

@@ -52,6 +52,12 @@ class EvaluatorOf final : public Evaluator {
 
   public:
     const ModelDescription& description() const override { return Double::describe(); }
+    std::vector<std::string_view> parameter_names() const override {
+        std::vector<std::string_view> names;
+        Double model{};
+        Double::parameters(model, [&](std::string_view name, auto&) { names.push_back(name); });
+        return names;
+    }
 
     double eval(const ValuesD& v, const Vec3d& wi, const Vec3d& wo) const override {
         return make(v).eval(wi, wo);

@@ -64,7 +64,7 @@ Setting parse_setting(std::string_view text) {
         Vec3f rgb{float(parse_number(value.substr(0, comma), text)),
                   float(parse_number(value.substr(comma + 1, second - comma - 1), text)),
                   float(parse_number(value.substr(second + 1), text))};
-        setting.value = make_rgb_unbounded(rgb);
+        setting.value = rgb;
     } else if (starts_a_number(value)) {
         setting.value = parse_number(value, text);
     } else {
@@ -157,27 +157,52 @@ AnyModel::AnyModel(const Evaluator& evaluator, const Settings& settings, Bounds 
                 if (p.kind != ParameterKind::spectrum)
                     throw InputError(fmt::format("{}: {} is one number, not a colour or spectrum",
                                                  model.name, p.name));
-                v.spectrum = std::get<SpectrumPtr>(s.value);
-                // The upper bounds of uplifted colours may exceed the colour by rounding.
-                const double max = v.spectrum->max();
-                check_range(model, p, max <= p.high * (1. + 1e-5) ? std::min(max, p.high) : max);
+                if (const auto* rgb = std::get_if<Vec3f>(&s.value)) {
+                    for (int c = 0; c < 3; ++c) check_range(model, p, (*rgb)[c]);
+                    v.spectrum =
+                        p.high <= 1. ? make_rgb_reflectance(*rgb) : make_rgb_unbounded(*rgb);
+                } else {
+                    v.spectrum = std::get<SpectrumPtr>(s.value);
+                    check_range(model, p, v.spectrum->max());
+                }
             }
         }
-    if (bounds == Bounds::ranges_only) return;
-    for (const SumBound& b : model.bounds) {
-        double total = 0.;
-        std::string names;
-        for (std::string_view name : b.parameters) {
-            const Value& v = values_[find_parameters(model, name).front()];
-            total += v.spectrum ? v.spectrum->max() : v.number;
-            names += fmt::format("{}{}", names.empty() ? "" : " + ", name);
-        }
-        if (!(total <= 1. + 1e-5))
-            throw InputError(
-                fmt::format("{}: {} = {:.6g} is out of range: must not exceed 1, lest energy "
-                            "appear from nowhere",
-                            model.name, names, total));
+    if (bounds == Bounds::enforced) check_bounds();
+}
+
+void AnyModel::check_bounds() const {
+    for (const SumBound& b : description().bounds) {
+        std::vector<int> positions;
+        for (std::string_view name : b.parameters)
+            positions.push_back(find_parameters(description(), name).front());
+        const auto sum_at = [&](const Wavelengths& w) {
+            const ValuesS v = values(w);
+            Spectral sum(0.f);
+            for (int i : positions) sum += v.color[i];
+            return max_lane(sum);
+        };
+        check_sum(description(), b, largest_over_wavelengths(sum_at));
     }
+}
+
+float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f) {
+    float largest = f(Wavelengths::rgb_bands());
+    for (float nm = visible_min; nm <= visible_max; nm += 20.f)
+        largest =
+            std::max(largest, f(Wavelengths::at(Spectral(nm, nm + 5.f, nm + 10.f, nm + 15.f))));
+    return largest;
+}
+
+void check_sum(const ModelDescription& model, const SumBound& bound, double sum) {
+    // Uplifted colours may exceed what was written by rounding.
+    if (sum <= 1. + 1e-4) return;
+    std::string names;
+    for (std::string_view name : bound.parameters)
+        names += fmt::format("{}{}", names.empty() ? "" : " + ", name);
+    throw InputError(
+        fmt::format("{}: {} = {:.6g} is out of range: must lie within [0, 1], lest "
+                    "energy appear from nowhere",
+                    model.name, names, sum));
 }
 
 Spectral band_wavelengths() { return Spectral(611.4f, 549.1f, 464.2f, 549.1f); }
@@ -191,7 +216,9 @@ ValuesS AnyModel::values(const Wavelengths& w) const {
         const ParameterKind kind = description().parameters[i].kind;
         const bool bands = w.mode == ColorMode::rgb_bands;
         if (kind == ParameterKind::wavelength)
-            r.set_color(i, bands ? band_wavelengths() : w.lambda);
+            r.set_color(i, v.number > 0. ? Spectral(float(v.number))
+                           : bands       ? band_wavelengths()
+                                         : w.lambda);
         else if (kind == ParameterKind::spectrum)
             r.set_color(i, v.spectrum ? v.spectrum->eval(w) : Spectral(float(v.number)));
         else
@@ -216,7 +243,7 @@ ValuesD AnyModel::values_double(double nm) const {
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const Value& v = values_[i];
         double number = v.number;
-        if (description().parameters[i].kind == ParameterKind::wavelength)
+        if (description().parameters[i].kind == ParameterKind::wavelength && number == 0.)
             number = nm;
         else if (v.spectrum)
             number = v.spectrum->eval(at(float(nm)))[0];

@@ -1,5 +1,6 @@
 #pragma once
 // Models by name: what the scene reader, the command line, the checks and the documentation use.
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,8 +16,8 @@ const std::vector<const ModelDescription*>& models();
 /// The evaluator of a model; throws InputError with the nearest name if there is none.
 const Evaluator& find_evaluator(std::string_view name);
 
-/// What a parameter is set to: a number, a word (of a choice), or a spectrum.
-using SettingValue = std::variant<double, std::string, SpectrumPtr>;
+/// What a parameter is set to: a number, a word (of a choice), linear RGB, or a spectrum.
+using SettingValue = std::variant<double, std::string, Vec3f, SpectrumPtr>;
 struct Setting {
     std::string name;
     SettingValue value;
@@ -40,6 +41,10 @@ int find_choice(const ModelDescription& model, const Parameter& parameter, std::
 /// Throws InputError unless the number is within the range of the parameter (NaN is not); whole for
 /// integers.
 void check_range(const ModelDescription& model, const Parameter& parameter, double value);
+/// Throws InputError if a sum exceeds 1.
+void check_sum(const ModelDescription& model, const SumBound& bound, double sum);
+/// The largest that f becomes in RGB bands and over the visible range in steps of 5 nm.
+float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f);
 /// How messages and manual pages write a range: "(0, 10]".
 std::string range_text(const Parameter& parameter);
 
@@ -95,6 +100,7 @@ class AnyModel {
 
   private:
     static Wavelengths at(float nm);
+    void check_bounds() const;
 
     struct Value {
         double number = 0.;

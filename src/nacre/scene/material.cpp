@@ -1,6 +1,7 @@
 // The table of material types, and what their builders share.
 #include "nacre/scene/material.h"
 
+#include "nacre/reflectance/registry.h"
 #include "nacre/scene/material_types.h"
 
 namespace nacre {
@@ -30,6 +31,7 @@ constexpr MaterialType types[] = {
 std::vector<std::string> type_names() {
     std::vector<std::string> names;
     for (const MaterialType& type : types) names.emplace_back(type.name);
+    for (const ModelDescription* model : models()) names.emplace_back(model->name);
     return names;
 }
 
@@ -93,10 +95,14 @@ MaterialPtr make_material(const SceneNode& node, BuildContext& context) {
         return known->second;
     const auto type = std::find_if(std::begin(types), std::end(types),
                                    [&](const MaterialType& t) { return t.name == node.type; });
-    if (type == std::end(types))
+    const bool is_model =
+        std::any_of(models().begin(), models().end(),
+                    [&](const ModelDescription* model) { return model->name == node.type; });
+    if (type == std::end(types) && !is_model)
         node.fail(fmt::format("unknown bsdf type '{}'{}", node.type,
                               suggestion(node.type, type_names())));
-    MaterialPtr material = type->build(node, context);
+    MaterialPtr material =
+        is_model ? make_reflectance_model(node, context) : type->build(node, context);
     node.check_all_used();
     context.materials.emplace(&node, material);
     return material;

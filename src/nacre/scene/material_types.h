@@ -17,6 +17,9 @@ MaterialPtr make_roughplastic(const SceneNode& node, BuildContext& context);
 MaterialPtr make_thindielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_twosided(const SceneNode& node, BuildContext& context);
 
+/// A reflectance model of the list (reflectance/models.h) whose name is the node's type.
+MaterialPtr make_reflectance_model(const SceneNode& node, BuildContext& context);
+
 /// The texture of parameter `name`, a reflectance or transmittance: throws unless every value lies
 /// in [0, 1], since anything else would make or destroy energy.
 TexturePtr get_reflectance(const SceneNode& node, std::string_view name, float otherwise,
