@@ -26,15 +26,28 @@ Model<D, P, S> make_model_of(const Values<C, V>& values) {
 
 namespace evaluator_detail {
 
+/// Component `c` of N vectors that lie one after the other in three registers.
+template <int c>
+Wide component(Wide first, Wide second, Wide third) {
+    constexpr int n = Wide::size;
+    typename Mask<float, n>::Native from_two, from_three;
+    for (int i = 0; i < n; ++i) {
+        const int position = 3 * i + c;
+        from_two[i] = position < 2 * n ? position : 0;
+        from_three[i] = position < 2 * n ? i : position - n;
+    }
+    return Wide::from(
+        __builtin_shuffle(__builtin_shuffle(first.v, second.v, from_two), third.v, from_three));
+}
+
 /// N vectors as three packs.
 inline Vec3<Wide> load(const Vec3f* v) {
-    Vec3<Wide> r;
-    for (int i = 0; i < Wide::size; ++i) {
-        r.x.v[i] = v[i].x;
-        r.y.v[i] = v[i].y;
-        r.z.v[i] = v[i].z;
-    }
-    return r;
+    static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+    const float* p = &v->x;
+    const Wide first = Wide::load(p), second = Wide::load(p + Wide::size),
+               third = Wide::load(p + 2 * Wide::size);
+    return {component<0>(first, second, third), component<1>(first, second, third),
+            component<2>(first, second, third)};
 }
 
 }  // namespace evaluator_detail

@@ -136,7 +136,8 @@ struct Ward {
         // D(h) h.z / (4 wi.h) with D = e / (pi au av h.z^4), h.z = H.z/|H|, wi.h = |H|/2.
         const Vec3<D> h = wi + wo;
         const D z = at_least(h.z, 1e-10);
-        const D lobe = gaussian(h) * dot(h, h) * D(0.5 * inv_pi) / (alpha_u * alpha_v * z * z * z);
+        const D lobe = gaussian(h, D(1) / (z * z)) * dot(h, h) * D(0.5 * inv_pi) /
+                       (alpha_u * alpha_v * z * z * z);
         const D share = D(specular_share(kd, ks));
         return above(wi, wo) * (share * lobe + (D(1) - share) * D(inv_pi) * wi.z);
     }
@@ -144,33 +145,33 @@ struct Ward {
   private:
     using T = Product<D, S>;
 
-    /// e, which does not depend on the length of h.
-    T gaussian(const Vec3<D>& h) const {
+    /// e, from a half vector of any length and 1/z^2 of it.
+    T gaussian(const Vec3<D>& h, D inverse_z2) const {
         using std::exp;
-        const T x = h.x / alpha_u, y = h.y / alpha_v;
-        return exp(T(-(x * x + y * y) / at_least(D(h.z * h.z), 1e-20)));
+        const T x = h.x * (S(1.) / alpha_u), y = h.y * (S(1.) / alpha_v);
+        return exp(T(-(x * x + y * y) * inverse_z2));
     }
     T highlight(const Vec3<D>& wi, const Vec3<D>& wo) const {
         using std::exp, std::sqrt;
         const Vec3<D> h = wi + wo;
+        const D inverse_z2 = D(1) / at_least(D(h.z * h.z), 1e-14);
         const D cosines = at_least(D(wi.z * wo.z), 1e-14);
-        const T norm = T(D(0.25 * inv_pi)) / (alpha_u * alpha_v);
+        const S norm = S(0.25 * inv_pi) / (alpha_u * alpha_v);
         switch (variant) {
             case WardVariant::original:
-                return norm * gaussian(h) / sqrt(cosines);
+                return norm * gaussian(h, inverse_z2) / sqrt(cosines);
             case WardVariant::duer:
-                return norm * gaussian(h) / cosines;
+                return norm * gaussian(h, inverse_z2) / cosines;
             case WardVariant::fast: {
+                // 2/(1 + h.z) of the unit vector, from the squared length.
                 const D length2 = at_least(dot(h, h), 1e-20);
-                const T x = h.x / alpha_u, y = h.y / alpha_v;
-                const D bottom = length2 + h.z * sqrt(length2);
-                return norm * exp(T(D(-2) * (x * x + y * y) / bottom)) / sqrt(cosines);
+                const D scale = D(2) / (length2 + h.z * sqrt(length2));
+                return norm * gaussian(h, scale) / sqrt(cosines);
             }
             case WardVariant::gmd:
                 break;
         }
-        const D z2 = at_least(D(h.z * h.z), 1e-14);
-        return D(4) * norm * gaussian(h) * (dot(h, h) / (z2 * z2));
+        return S(4.) * norm * gaussian(h, inverse_z2) * (dot(h, h) * inverse_z2 * inverse_z2);
     }
 };
 
