@@ -191,12 +191,13 @@ bool RayScene::occluded(const Ray& ray) const {
 }
 
 std::optional<Hit> RayScene::closest(const Point3f& p, float limit,
-                                     std::optional<std::uint32_t> shape) const {
+                                     std::optional<std::uint32_t> shape, float tolerance) const {
     struct Search {
         const std::vector<std::unique_ptr<Impl::Shape>>& shapes;
         std::optional<std::uint32_t> only;
         Vec3d p;
         double nearest;
+        float keep;  // part of the distance found within which the search goes on
         std::optional<Hit> hit;
 
         static bool visit(RTCPointQueryFunctionArguments* args) {
@@ -218,7 +219,7 @@ std::optional<Hit> RayScene::closest(const Point3f& p, float limit,
             self.hit =
                 Hit{static_cast<float>(found.t), args->geomID, args->primID, found.u, found.v};
             // Rounded up, so that nothing nearer is culled.
-            args->query->radius = static_cast<float>(found.t) * (1 + 0x1p-22f);
+            args->query->radius = static_cast<float>(found.t) * self.keep;
             return true;
         }
     };
@@ -230,7 +231,8 @@ std::optional<Hit> RayScene::closest(const Point3f& p, float limit,
         std::max(std::abs(double(p.x) - box.lower.x), std::abs(double(p.x) - box.upper.x)),
         std::max(std::abs(double(p.y) - box.lower.y), std::abs(double(p.y) - box.upper.y)),
         std::max(std::abs(double(p.z) - box.lower.z), std::abs(double(p.z) - box.upper.z))};
-    Search search{impl_->shapes, shape, Vec3d(p), limit, std::nullopt};
+    Search search{impl_->shapes, shape, Vec3d(p), limit, (1 + 0x1p-22f) * (1 - tolerance),
+                  std::nullopt};
     RTCPointQuery query;
     query.x = p.x;
     query.y = p.y;
@@ -243,8 +245,9 @@ std::optional<Hit> RayScene::closest(const Point3f& p, float limit,
     return search.hit;
 }
 
-float RayScene::distance(const Point3f& p, float limit, std::optional<std::uint32_t> shape) const {
-    const std::optional<Hit> hit = closest(p, limit, shape);
+float RayScene::distance(const Point3f& p, float limit, std::optional<std::uint32_t> shape,
+                         float tolerance) const {
+    const std::optional<Hit> hit = closest(p, limit, shape, tolerance);
     return hit ? std::min(hit->t, limit) : limit;
 }
 

@@ -80,11 +80,14 @@ class RayScene {
     bool occluded(const Ray& ray) const;
     /// Distance from `p` to the nearest surface, or `limit` if none is nearer. `shape` restricts it
     /// to one shape. About a microsecond near a surface; up to a thousand times more deep inside
-    /// a fine mesh, where a large part of it is almost equally near.
-    float distance(const Point3f& p, float limit, std::optional<std::uint32_t> shape = {}) const;
-    /// Nearest surface point within `limit`.
+    /// a fine mesh, where a large part of it is almost equally near. `tolerance` mends that: the
+    /// result may then be too large, but (1 - tolerance) times it is not.
+    float distance(const Point3f& p, float limit, std::optional<std::uint32_t> shape = {},
+                   float tolerance = 0.f) const;
+    /// Nearest surface point within `limit`, or one that is nearly so (`tolerance`).
     std::optional<Hit> closest(const Point3f& p, float limit,
-                               std::optional<std::uint32_t> shape = {}) const;
+                               std::optional<std::uint32_t> shape = {},
+                               float tolerance = 0.f) const;
 
     /// Geometry at a hit of `intersect` or `closest`. It follows from the hit alone; the ray is not
     /// looked at.

@@ -12,6 +12,9 @@ namespace {
 // Cells are made in blocks of this many along a side: one query at the block's centre tells which
 // cells need their own.
 constexpr unsigned block = 8;
+// Distances need not be known better than this: exact ones take many times as long deep inside a
+// fine mesh.
+constexpr float tolerance = 0.1f;
 
 }  // namespace
 
@@ -37,7 +40,7 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
         const Point3f middle =
             origin_ +
             Vec3f(float(x0) + block / 2, float(y0) + block / 2, float(z0) + block / 2) * size_;
-        const float middle_distance = rays.distance(middle, unlimited);
+        const float middle_distance = rays.distance(middle, unlimited, {}, tolerance);
         for (unsigned z = z0; z < std::min(z0 + block, nz_); ++z)
             for (unsigned y = y0; y < std::min(y0 + block, ny_); ++y) {
                 float before = unlimited;  // distance at the cell before in the row
@@ -48,11 +51,12 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
                     // The triangle inequality bounds the distance from both sides. Deep inside, the
                     // lower bound is good enough (within a factor of three); nearer the surface the
                     // upper one shortens the search.
-                    float distance = middle_distance - offset;
+                    float distance = (1.f - tolerance) * middle_distance - offset;
                     if (distance < offset) {
                         const float most =
                             std::min(middle_distance + offset, before + size_) + 1e-3f * size_;
-                        distance = before = rays.distance(c, most);
+                        before = rays.distance(c, most, {}, tolerance);
+                        distance = (1.f - tolerance) * before;
                     }
                     cells_[index(int(x), int(y), int(z))] = {
                         std::max(0.f, distance - half_diagonal()), -1};

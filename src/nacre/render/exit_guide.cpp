@@ -62,7 +62,8 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
     const auto nearest = [&](const Point3f& p, float within) -> std::optional<SurfacePoint> {
         std::optional<Hit> best;
         for (const std::uint32_t shape : boundary)
-            if (const auto hit = scene.rays.closest(p, best ? best->t : within, shape)) best = hit;
+            if (const auto hit = scene.rays.closest(p, best ? best->t : within, shape, 0.1f))
+                best = hit;
         if (!best) return {};
         return scene.rays.surface_point(Ray{p, {0.f, 0.f, 1.f}}, *best);
     };
