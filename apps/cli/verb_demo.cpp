@@ -2,12 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/render_and_save.h"
-#include "nacre/math/error.h"
-#include "nacre/scene/image.h"
-#if __has_include("nacre/scene/demo_scene.h")
 #include "nacre/scene/demo_scene.h"
-#define NACRE_HAS_DEMO 1
-#endif
+#include "nacre/scene/image.h"
 
 namespace nacre::cli {
 namespace {
@@ -19,7 +15,6 @@ struct Options {
     bool quiet = false;
 };
 
-#ifdef NACRE_HAS_DEMO
 int run(const Options& o, const Invocation& invocation) {
     SaveOptions save;
     save.output = o.output;
@@ -35,11 +30,6 @@ int run(const Options& o, const Invocation& invocation) {
     if (code == success) fmt::print("{}\n", std::filesystem::absolute(save.output).string());
     return code;
 }
-#else
-int run(const Options&, const Invocation&) {
-    throw RunError("this build has no demonstration scene");
-}
-#endif
 
 }  // namespace
 
