@@ -146,6 +146,32 @@ TEST_F(Accelerations, GuidedExitsLeaveTheMean) {
                    ColorMode::rgb_bands, 5000, deviations);
 }
 
+// Light scattered once, at places that the light reaches more and less, so that proposals are made
+// always, often and seldom: numbers shared with the free path, which decides where, would show. The
+// large light is met by chance about as densely as by proposal, so that wrong weights would show.
+TEST_F(Accelerations, GuidedExitsLeaveSingleScattering) {
+    struct Case {
+        double light_radius;
+        float x;
+        int pixels, pixels_without;
+    };
+    for (const Case& k : {Case{2.5, 2, 6000, 40000}, Case{2.5, 1.5, 6000, 40000},
+                          Case{2.5, 1, 6000, 40000}, Case{7, 1, 20000, 100000}}) {
+        const Vec3d at = k.light_radius > 3 ? Vec3d(13, 0, 9) : Vec3d(10, 0, 3);
+        const auto make = [&](bool guided) {
+            return scene(xml::integrator("volpath", xml::integer("max_depth", 4) +
+                                                        xml::flag("guided_exits", guided)) +
+                         xml::sphere({}, 4, body_of(xml::phase("isotropic"))) +
+                         xml::sphere(at, k.light_radius, xml::area_light({10, 10, 10})));
+        };
+        const RayMaker rays = ray_bundle({k.x, 0, 4.5f}, {0, 0, -1}, 0.1f);
+        const auto a = estimate(make(true), rays, {.pixels = k.pixels, .seed = 1}),
+                   b = estimate(make(false), rays, {.pixels = k.pixels_without, .seed = 2});
+        expect_agreement(a, b, sidak_deviations(12),
+                         fmt::format("light of radius {}, x = {}", k.light_radius, k.x));
+    }
+}
+
 // What guided exits are there for: a small light, which walks hardly ever find by themselves, and
 // an object that is nearly flat over a free path.
 TEST_F(Accelerations, GuidedExitsLowerTheNoise) {
@@ -173,7 +199,7 @@ TEST_F(LongAccelerations, GuidedExitsLeaveTheMean) {
                         xml::shape("obj",
                                    lens() + xml::flag("face_normals", !smooth) + body_of(phase)) +
                             text,
-                        regions(), mode, 60000, deviations);
+                        regions(), mode, 15000, deviations);
 }
 
 // The built-in figure with its thin ears, lit from behind, seen from the front.
@@ -190,13 +216,19 @@ TEST_F(LongAccelerations, GuidedExitsLeaveTheMeanOfTheFigure) {
     const Vec3f half = box.diagonal() * 0.5f;
     const auto light = xml::sphere({c.x, c.y + half.y, c.z - 3 * half.y}, 0.4 * half.y,
                                    xml::area_light({20, 20, 20}));
+    // In shares of half the box's sides from its centre.
+    struct Part {
+        std::string name;
+        float x, y;
+    };
     std::vector<Region> parts;
-    for (int i = 0; i < 6; ++i) {
-        const float x = c.x + half.x * (-0.75f + 0.5f * float(i % 3) * 1.5f);
-        const float y = c.y + half.y * (i < 3 ? 0.6f : -0.3f);
-        parts.push_back({fmt::format("part {}", i),
-                         ray_bundle({x, y, c.z + 4 * half.y}, {0, 0, -1}, 0.15f * half.x)});
-    }
+    for (const Part& part :
+         {Part{"right ear", -0.54f, 0.45f}, Part{"left ear", 0.56f, 0.4f},
+          Part{"right collar", -0.74f, -0.47f}, Part{"left collar", 0.72f, -0.47f},
+          Part{"face", 0.f, 0.5f}, Part{"chest", 0.f, -0.3f}})
+        parts.push_back(
+            {part.name, ray_bundle({c.x + half.x * part.x, c.y + half.y * part.y, c.z + 4 * half.y},
+                                   {0, 0, -1}, 0.05f * half.x)});
     const double deviations = sidak_deviations(2 * 6 * 3);
     for (const bool smooth : {false, true}) {
         const std::string objects =

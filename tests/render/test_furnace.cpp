@@ -153,7 +153,7 @@ TEST_F(LongFurnace, EveryObjectIntegratorSamplerAndLight) {
         for (const std::string& integrator : integrators_of(object))
             for (const std::string& sampler : samplers)
                 for (const auto& [light, text] : lights_)
-                    check(object, integrator, sampler, light, 1e-3, 4000);
+                    check(object, integrator, sampler, light, 1.3e-3, 16000);
 }
 
 }  // namespace

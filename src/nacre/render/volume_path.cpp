@@ -209,7 +209,8 @@ bool VolumePath::at_surface() {
         vertex_pdf_ = sample->pdf;
         partner_density_ = density_;
         partner_ = sample->delta ? Partner::none : Partner::light_sampling;
-        if (sample->delta && last_collision_.valid && sample->wi.z * wo.z < 0.f)
+        // From outside as the interpolated normal sees it, no proposal would have come.
+        if (sample->delta && last_collision_.valid && wo.z < 0.f && sample->wi.z > 0.f)
             expect_guided_exit(sample->pdf);
     }
     last_collision_.valid = false;
