@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "nacre/math/error.h"
+#include "nacre/render/legacy.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/volume_path_tracer.h"
 
@@ -13,12 +14,13 @@ std::unique_ptr<Integrator> make_integrator(const Scene& scene) {
     if (type == "ray") return std::make_unique<PathTracer>(scene, true);
     if (type == "path") return std::make_unique<PathTracer>(scene, false);
     if (type == "volpath") return std::make_unique<VolumePathTracer>(scene);
+    if (type == "legacy") return std::make_unique<LegacyShading>(scene);
     throw InputError(fmt::format("integrator '{}' is not known; known are: {}", type,
                                  fmt::join(integrator_types(), ", ")));
 }
 
 std::span<const std::string_view> integrator_types() {
-    static constexpr std::string_view types[] = {"ray", "path", "volpath"};
+    static constexpr std::string_view types[] = {"ray", "path", "volpath", "legacy"};
     return types;
 }
 

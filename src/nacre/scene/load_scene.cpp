@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "nacre/scene/legacy_settings.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
 
@@ -129,7 +130,8 @@ bool any_spectral(const Scene& scene) {
     return std::any_of(scene.lights.begin(), scene.lights.end(), spectral) ||
            std::any_of(scene.media.begin(), scene.media.end(), spectral) ||
            std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                       [](const ShapeBinding& s) { return s.material->is_spectral(); });
+                       [](const ShapeBinding& s) { return s.material->is_spectral(); }) ||
+           (scene.integrator.legacy && scene.integrator.legacy->is_spectral());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "nacre/scene/legacy_settings.h"
 #include "nacre/scene/scene_builder.h"
 
 namespace nacre {
@@ -48,7 +49,7 @@ FilterSettings read_filter(const SceneNode& node) {
 }  // namespace
 
 IntegratorSettings read_integrator(const SceneNode& node) {
-    const std::vector<std::string> known = {"path", "volpath", "volpathmis", "ray", "moment"};
+    const std::vector<std::string> known = {"path", "volpath", "volpathmis", "ray", "legacy", "moment"};
     IntegratorSettings settings;
     if (node.type == "moment") {
         const auto nested = node.children_of("integrator");
@@ -63,7 +64,8 @@ IntegratorSettings read_integrator(const SceneNode& node) {
         return settings;
     }
     settings.type = node.type == "volpathmis" ? "volpath" : node.type;
-    if (settings.type != "path" && settings.type != "volpath" && settings.type != "ray")
+    if (settings.type != "path" && settings.type != "volpath" && settings.type != "ray" &&
+        settings.type != "legacy")
         node.fail(
             fmt::format("unknown integrator type '{}'{}", node.type, suggestion(node.type, known)));
     settings.hide_emitters = node.get_bool("hide_emitters", false);
@@ -73,6 +75,7 @@ IntegratorSettings read_integrator(const SceneNode& node) {
         settings.distance_grid = node.get_bool("distance_grid", true);
         settings.guided_exits = node.get_bool("guided_exits", true);
     }
+    if (settings.type == "legacy") settings.legacy = read_legacy(node);
     node.check_all_used();
     return settings;
 }

@@ -46,8 +46,10 @@ struct SamplerSettings {
     std::uint64_t seed = 0;
 };
 
+struct LegacySettings;
+
 struct IntegratorSettings {
-    std::string type = "path";  ///< ray, path, volpath
+    std::string type = "path";  ///< ray, path, volpath, legacy
     int max_depth = -1;         ///< number of path segments; -1: no limit; 1 shows only what shines
     int rr_depth = 5;           ///< from this depth on Russian roulette may end a path
     bool hide_emitters = false;
@@ -55,6 +57,8 @@ struct IntegratorSettings {
     // The accelerations of volpath, each to be switched off by itself.
     bool distance_grid = true;
     bool guided_exits = true;
+    /// Of `legacy` (scene/legacy_settings.h); null otherwise.
+    std::shared_ptr<const LegacySettings> legacy;
 };
 
 struct Scene {
