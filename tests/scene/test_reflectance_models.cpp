@@ -109,7 +109,7 @@ TEST(ReflectanceModels, SayWhatIsWrongWithTheirParameters) {
         {bsdf("phong", {number("n", 3.), number("exponent", 4.)}),
          "test.xml:2:5: <bsdf type=\"phong\"> takes either 'n' or 'exponent', not both"},
         {bsdf("ward", {text("variant", "dur")}),
-         "test.xml:2:5: ward: unknown variant \"dur\"; did you mean \"duer\"? Known: gmd, "
+         "test.xml:2:5: ward: unknown variant \"dur\": did you mean \"duer\"? known are gmd, "
          "original, "
          "fast, duer"},
         {bsdf("wart"), "test.xml:1:1: unknown bsdf type 'wart'; did you mean 'ward'?"},
@@ -117,14 +117,18 @@ TEST(ReflectanceModels, SayWhatIsWrongWithTheirParameters) {
     for (const Wrong& w : wrong) EXPECT_EQ(test::error_of(w.node), w.message);
 }
 
-// One colour in red and one in green do not add up.
+// One colour in red and one in blue do not add up.
 TEST(ReflectanceModels, SumsAreBoundedWavelengthByWavelength) {
-    EXPECT_EQ(
-        test::error_of(bsdf("phong", {rgb("kd", {0.9f, 0.f, 0.f}), rgb("ks", {0.f, 0.f, 0.9f})})),
-        "");
-    EXPECT_NE(
-        test::error_of(bsdf("phong", {rgb("kd", {0.9f, 0.f, 0.f}), rgb("ks", {0.3f, 0.f, 0.f})})),
-        "");
+    const auto error_of = [](SceneValue kd, SceneValue ks) {
+        return test::error_of(bsdf("phong", {std::move(kd), std::move(ks)}));
+    };
+    const Vec3f red{0.9f, 0.f, 0.f}, blue{0.f, 0.f, 0.9f}, dark_red{0.3f, 0.f, 0.f};
+    EXPECT_EQ(error_of(rgb("kd", red), rgb("ks", blue)), "");
+    EXPECT_NE(error_of(rgb("kd", red), rgb("ks", dark_red)), "");
+    const auto rises = test::tabulated("kd", {300.f, 900.f}, {0.f, 1.f});
+    EXPECT_EQ(error_of(rises, test::tabulated("ks", {300.f, 900.f}, {1.f, 0.f})), "");
+    EXPECT_EQ(error_of(rises, test::tabulated("ks", {300.f, 900.f}, {0.5f, 0.5f})).substr(0, 30),
+              "test.xml:1:1: phong: kd + ks =");
 }
 
 }  // namespace nacre

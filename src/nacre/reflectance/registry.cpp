@@ -175,18 +175,22 @@ void AnyModel::check_bounds() const {
         std::vector<int> positions;
         for (std::string_view name : b.parameters)
             positions.push_back(find_parameters(description(), name).front());
+        const bool spectral = std::any_of(positions.begin(), positions.end(), [&](int i) {
+            return values_[i].spectrum && values_[i].spectrum->is_spectral();
+        });
         const auto sum_at = [&](const Wavelengths& w) {
             const ValuesS v = values(w);
             Spectral sum(0.f);
             for (int i : positions) sum += v.color[i];
             return max_lane(sum);
         };
-        check_sum(description(), b, largest_over_wavelengths(sum_at));
+        check_sum(description(), b, largest_over_wavelengths(sum_at, spectral));
     }
 }
 
-float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f) {
+float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f, bool spectral) {
     float largest = f(Wavelengths::rgb_bands());
+    if (!spectral) return largest;
     for (float nm = visible_min; nm <= visible_max; nm += 20.f)
         largest =
             std::max(largest, f(Wavelengths::at(Spectral(nm, nm + 5.f, nm + 10.f, nm + 15.f))));

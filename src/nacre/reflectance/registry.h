@@ -43,8 +43,9 @@ int find_choice(const ModelDescription& model, const Parameter& parameter, std::
 void check_range(const ModelDescription& model, const Parameter& parameter, double value);
 /// Throws InputError if a sum exceeds 1.
 void check_sum(const ModelDescription& model, const SumBound& bound, double sum);
-/// The largest that f becomes in RGB bands and over the visible range in steps of 5 nm.
-float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f);
+/// The largest that f becomes in RGB bands and, if asked, over the visible range in steps of 5 nm.
+/// Who wrote RGB means bands: the ends of uplifted spectra are nobody's choice.
+float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f, bool spectral);
 /// How messages and manual pages write a range: "(0, 10]".
 std::string range_text(const Parameter& parameter);
 

@@ -209,8 +209,10 @@ class ModelReader {
                     node_.describe(), names, largest));
             return;
         }
+        const bool spectral = std::any_of(textures.begin(), textures.end(),
+                                          [](const Texture* t) { return t->is_spectral(); });
         try {
-            check_sum(model_, bound, largest_over_wavelengths(sum_at));
+            check_sum(model_, bound, largest_over_wavelengths(sum_at, spectral));
         } catch (const InputError& error) {
             node_.fail(error.what());
         }
