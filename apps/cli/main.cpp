@@ -17,6 +17,8 @@ constexpr Verb verbs[] = {
     {"render", "render a scene (.xml) or a bare mesh in a translucent material", set_up_render},
     {"demo", "render the built-in scene", set_up_demo},
     {"models", "list materials, media, phase functions and integrators", set_up_models},
+    {"eval", "evaluate a reflectance model: values, albedo, plots", set_up_eval},
+    {"check", "check reflectance models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
     {"image", "convert an image between EXR, PFM, HDR and PNG", set_up_image},
 };

@@ -2,11 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/model_page.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
 #include "nacre/optics/names.h"
 #include "nacre/optics/phase.h"
+#include "nacre/reflectance/registry.h"
 #include "nacre/render/integrator.h"
 #include "nacre/scene/build.h"
 
@@ -48,6 +50,14 @@ constexpr std::pair<const char*, const char*> headings[] = {
     {"integrator", "integrators (<integrator type=...>)"},
 };
 
+/// The name, and of a reflectance model who and when.
+std::string line_of(const std::string& name) {
+    for (const ModelDescription* m : models())
+        if (m->name == name)
+            return fmt::format("  {:<18} {} ({}, {})\n", name, m->title, m->authors, m->year);
+    return fmt::format("  {}\n", name);
+}
+
 int list(bool json) {
     if (json) {
         ordered_json r;
@@ -60,7 +70,7 @@ int list(bool json) {
         const auto heading = std::find_if(std::begin(headings), std::end(headings),
                                           [&](const auto& h) { return kind == h.first; });
         fmt::print("{}\n", heading->second);
-        for (const std::string& n : names) fmt::print("  {}\n", n);
+        for (const std::string& n : names) fmt::print("{}", line_of(n));
         fmt::print("\n");
     }
     fmt::print("measured media (--material), mm^-1 in red, green, blue\n");
@@ -87,12 +97,26 @@ void show_medium(const MeasuredMedium& m) {
     if (m.diffuse_reflectance) row("diffuse reflectance, as published", *m.diffuse_reflectance);
 }
 
+/// False if it is not one of the reflectance models.
+bool show_reflectance_model(const std::string& name, bool json) {
+    for (const ModelDescription* m : models()) {
+        if (m->name != name) continue;
+        if (json)
+            fmt::print("{}\n", model_json(*m).dump(2));
+        else
+            fmt::print("{}", model_page(*m));
+        return true;
+    }
+    return false;
+}
+
 int show(const std::string& name, bool json) {
     std::vector<std::string> known;
     for (const auto& [kind, names] : named_models())
         for (const std::string& n : names) {
             known.push_back(n);
             if (plain_name(n) != plain_name(name)) continue;
+            if (show_reflectance_model(n, json)) return success;
             if (json)
                 fmt::print("{}\n", ordered_json{{"name", n}, {"kind", kind}}.dump(2));
             else

@@ -1,0 +1,112 @@
+#include "apps/cli/plot.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "nacre/math/error.h"
+
+namespace nacre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string csv_of(const Table& table) {
+    std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
+    for (const auto& row : table.rows) text += fmt::format("{:.12g}\n", fmt::join(row, ","));
+    return text;
+}
+
+void write_whole(const fs::path& path, const std::string& text) {
+    const fs::path beside = path.string() + ".part";
+    {
+        std::ofstream out(beside, std::ios::binary);
+        out << text;
+        out.close();
+        if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
+    }
+    fs::rename(beside, path);
+}
+
+/// A string of gnuplot's that nothing in it can end or start a command from.
+std::string quoted(const std::string& text) {
+    std::string r = "'";
+    for (char c : text) r += c == '\'' ? std::string("''") : std::string(1, c);
+    return r + "'";
+}
+
+/// Numbers in the form of gnuplot; an image's rows are kept apart by the first column.
+std::string gnuplot_script(const Table& t, const fs::path& output, bool svg) {
+    std::string s = svg ? "set terminal svg size 720,540 dynamic background rgb 'white'\n"
+                        : "set terminal pngcairo size 1080,810 fontscale 1.4\n";
+    s += fmt::format("set output {}\nset title {} noenhanced\n", quoted(output.string()),
+                     quoted(t.title));
+    s += "$data << END\n";
+    for (const auto& row : t.rows) s += fmt::format("{:.8g}\n", fmt::join(row, " "));
+    s += "END\nset key noenhanced\nset grid\n";
+    const auto curves = [&](const std::string& using_format) {
+        std::string plot;
+        for (std::size_t c = 1; c < t.columns.size(); ++c)
+            plot += fmt::format("{}$data using {} with lines lw 2 title \"{}\"", c == 1 ? "" : ", ",
+                                fmt::format(fmt::runtime(using_format), c + 1), t.columns[c]);
+        return "plot " + plot + "\n";
+    };
+    switch (t.kind) {
+        case PlotKind::curves:
+            s += fmt::format("set xlabel \"{}\" noenhanced\nset ylabel \"{}\" noenhanced\n",
+                             t.columns[0], t.y_label);
+            s += curves("1:{}");
+            break;
+        case PlotKind::polar:
+            s += fmt::format("set size ratio -1\nset xlabel \"{}\" noenhanced\n", t.y_label);
+            s += curves("(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
+            break;
+        case PlotKind::image:
+            s += fmt::format(
+                "set xlabel \"{}\" noenhanced\nset ylabel \"{}\" noenhanced\n"
+                "set cblabel \"{}\" noenhanced\nset size square\nset logscale cb\n"
+                "set palette gray\nset autoscale fix\n"
+                "plot $data using 1:2:($3 > 0 ? $3 : 1/0) with image notitle\n",
+                t.columns[0], t.columns[1], t.y_label);
+            break;
+    }
+    return s;
+}
+
+void run_gnuplot(const std::string& script) {
+    // What gnuplot has to say goes to the user's terminal with the exit status.
+    std::FILE* pipe = popen("gnuplot", "w");
+    if (!pipe) throw RunError("cannot start gnuplot");
+    std::fwrite(script.data(), 1, script.size(), pipe);
+    if (pclose(pipe) != 0)
+        throw RunError(
+            "gnuplot failed or is not there (Debian: gnuplot-nox); a .csv needs no gnuplot");
+}
+
+}  // namespace
+
+void write_table(const Table& table, const fs::path& path) {
+    if (path.empty()) {
+        fmt::print("{}", csv_of(table));
+        return;
+    }
+    const std::string extension = path.extension().string();
+    if (extension != ".csv" && extension != ".svg" && extension != ".png")
+        throw InputError(
+            fmt::format("cannot write '{}': a table becomes .csv, .svg or .png", path.string()));
+    fs::path csv = path;
+    write_whole(csv.replace_extension(".csv"), csv_of(table));
+    if (extension == ".csv") return;
+    const fs::path beside = path.string() + ".part";
+    try {
+        run_gnuplot(gnuplot_script(table, beside, extension == ".svg"));
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(beside, ignored);
+        throw;
+    }
+    fs::rename(beside, path);
+}
+
+}  // namespace nacre::cli

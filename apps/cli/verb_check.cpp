@@ -1,0 +1,144 @@
+// nacre check: models against reference values and against their own claims.
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "apps/cli/vector_file.h"
+#include "apps/cli/verb.h"
+#include "nacre/math/error.h"
+#include "nacre/reflectance/check.h"
+
+namespace nacre::cli {
+
+extern const char* const built_in_vectors;  // vectors.cpp, made at build time
+
+namespace {
+
+using nlohmann::json;
+
+/// Beyond this relative deviation, in double precision, a model is wrong.
+constexpr double tolerance = 1e-6;
+
+struct Options {
+    std::string model, vectors;
+    std::uint64_t seed = 1;
+    int samples = 40000;
+};
+
+struct GroupResult {
+    int count = 0;
+    double largest = 0.;
+    std::string where;
+};
+
+GroupResult compare(const GroupModel& who, const json& group) {
+    GroupResult result;
+    for (const auto& v : group.at("vectors")) {
+        const AnyModel model = model_of_vector(who, v.at("params"));
+        const double value = answer(who, model, direction_of(v.at("wi")), direction_of(v.at("wo")));
+        double deviation = relative_deviation(value, v.at("value").get<double>());
+        if (!std::isfinite(deviation)) deviation = infinite;
+        if (deviation >= result.largest) {
+            result.largest = deviation;
+            result.where = v.value("id", "");
+        }
+        ++result.count;
+    }
+    return result;
+}
+
+void print_group(const std::string& name, const GroupModel& who, const GroupResult& r) {
+    fmt::print("{:<26} {:<18} {:>4}  {:<12.3g} {}\n", name, who.evaluator->description().name,
+               r.count, r.largest, r.largest > tolerance ? "WRONG at " + r.where : "");
+}
+
+json parse_vectors(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw InputError(fmt::format("cannot read '{}'", path));
+    try {
+        return json::parse(file);
+    } catch (const json::exception& error) {
+        throw InputError(fmt::format("'{}' is not JSON: {}", path, error.what()));
+    }
+}
+
+int check_vectors(const std::string& path) {
+    const json all = parse_vectors(path);
+    if (!all.contains("models"))
+        throw InputError(fmt::format("'{}' has no \"models\": groups of vectors by name", path));
+    fmt::print("{:<26} {:<18} {:>4}  {}\n", "group", "model", "n", "largest relative deviation");
+    std::vector<std::string> missing;
+    bool good = true;
+    for (const auto& [name, group] : all["models"].items()) {
+        const GroupModel who = model_of_group(name);
+        if (!who.evaluator) {
+            missing.push_back(name);
+            continue;
+        }
+        GroupResult r;
+        try {
+            r = compare(who, group);
+        } catch (const json::exception& error) {
+            throw InputError(fmt::format("group '{}' of '{}': {}", name, path, error.what()));
+        }
+        print_group(name, who, r);
+        good = good && r.largest <= tolerance;
+    }
+    if (all.contains("scalars"))
+        for (const auto& [name, group] : all["scalars"].items()) missing.push_back(name);
+    for (const char* name : {"merl", "svd"})
+        if (all.contains(name)) missing.push_back(name);
+    if (!missing.empty()) fmt::print("\nnot covered: {}\n", fmt::join(missing, ", "));
+    return good ? success : failure;
+}
+
+int check_models(const Options& o) {
+    std::vector<const ModelDescription*> chosen;
+    if (o.model == "all")
+        chosen = models();
+    else
+        chosen = {&find_evaluator(o.model).description()};
+    const json vectors = json::parse(built_in_vectors);
+    bool good = true;
+    const auto report = [&](bool passed, const std::string& name, const std::string& detail) {
+        fmt::print("{:<5} {:<44} {}\n", passed ? "ok" : "WRONG", name, detail);
+        good = good && passed;
+    };
+    for (const ModelDescription* m : chosen) {
+        const Evaluator& evaluator = find_evaluator(m->name);
+        for (const ReferenceGroup& g : m->groups) {
+            if (!vectors["models"].contains(g.name)) continue;
+            const GroupResult r = compare({&evaluator, &g}, vectors["models"][std::string(g.name)]);
+            report(r.largest <= std::max(g.tolerance, 1e-9),
+                   fmt::format("{}: vectors {}", m->name, g.name),
+                   fmt::format("largest relative deviation {:.2g}", r.largest));
+        }
+        CheckOptions options;
+        options.seed = o.seed;
+        options.samples = o.samples;
+        for (const CheckOutcome& c : check_model(evaluator, options))
+            report(c.passed, c.name, c.detail);
+    }
+    return good ? success : failure;
+}
+
+int run(const Options& o) {
+    if (o.model.empty() == o.vectors.empty())
+        throw InputError("give the name of a model, 'all', or --vectors FILE");
+    if (o.samples < 1000) throw InputError("--samples must be at least 1000");
+    return o.model.empty() ? check_vectors(o.vectors) : check_models(o);
+}
+
+}  // namespace
+
+Action set_up_check(CLI::App& app, const Invocation&) {
+    auto o = std::make_shared<Options>();
+    app.add_option("model", o->model, "a reflectance model, or all");
+    app.add_option(
+        "--vectors", o->vectors,
+        "JSON of reference vectors: largest deviation per group; exit code 1 beyond 1e-6");
+    app.add_option("--seed", o->seed, "of the samplers' random numbers (1)");
+    app.add_option("--samples", o->samples, "per chi-square test (40000)");
+    return [o] { return run(*o); };
+}
+
+}  // namespace nacre::cli
