@@ -85,6 +85,11 @@ TEST(DemoScene, LightsTheFaceFromInFrontAndTheEarsFromBehind) {
     EXPECT_EQ(behind, 2);
 }
 
+TEST(DemoScene, TakesSamplesByTheSizeOfTheFilm) {
+    EXPECT_EQ(make_demo_scene(480, 640).sampler.samples, 48);  // 15e6 / 307200
+    EXPECT_EQ(portrait().sampler.samples, 256);
+}
+
 TEST(DemoScene, KeepsTheBustInViewOnNarrowFilms) {
     const Scene narrow = make_demo_scene(40, 160);
     for (int i = 0; i < 160; ++i) {

@@ -64,7 +64,9 @@ NodePtr camera(int width, int height) {
     set(film, "height", "integer", std::int64_t{height});
     add(camera, film);
     auto sampler = make_node("sampler", "sobol");
-    set(sampler, "sample_count", "integer", std::int64_t{48});
+    // As many as two cores make in less than a minute.
+    const double samples = 15e6 / (double(width) * height);
+    set(sampler, "sample_count", "integer", std::int64_t(std::clamp(samples, 16.0, 256.0)));
     add(camera, sampler);
     return camera;
 }
