@@ -59,7 +59,10 @@ std::string gnuplot_script(const Table& t, const fs::path& output, bool svg) {
             s += curves("1:{}");
             break;
         case PlotKind::polar:
-            s += fmt::format("set size ratio -1\nset xlabel \"{}\" noenhanced\n", t.y_label);
+            s += fmt::format(
+                "set size ratio -1\nset zeroaxis\nset yrange [0:*]\nset key outside bottom center "
+                "horizontal\nset xlabel \"{}\" noenhanced\n",
+                t.y_label);
             s += curves("(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
             break;
         case PlotKind::image:

@@ -36,9 +36,11 @@ Vec3d in_plane(double degrees) {
     return {std::sin(degrees * degree), 0., std::cos(degrees * degree)};
 }
 
-/// The angles of incidence of a plot: that of --wi, or a few.
+/// The angles of incidence of a plot: that of --wi, or a few. A grazing lobe would dwarf the others
+/// in a polar plot.
 std::vector<double> incidences(const Options& o) {
-    if (o.wi.empty()) return {0., 30., 60., 80.};
+    if (o.wi.empty())
+        return o.lobe ? std::vector<double>{0., 30., 60.} : std::vector<double>{0., 30., 60., 80.};
     const Vec3d wi = parse_direction(o.wi, "--wi");
     if (!(wi.z > 0.)) throw InputError("--wi must lie above the horizon: z > 0");
     return {std::round(std::acos(wi.z) / degree * 1e6) / 1e6};

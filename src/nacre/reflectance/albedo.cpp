@@ -31,7 +31,26 @@ double rule(const Function& f, double t0, double t1, double p0, double p1) {
     });
 }
 
+/// `whole` is the rule over the cell.
+double refined(const Function& f, double t0, double t1, double p0, double p1, double whole,
+               double tolerance, int depth) {
+    const double t = 0.5 * (t0 + t1), p = 0.5 * (p0 + p1);
+    const double a = rule(f, t0, t, p0, p), b = rule(f, t0, t, p, p1);
+    const double c = rule(f, t, t1, p0, p), d = rule(f, t, t1, p, p1);
+    if (depth == 0 || std::abs(a + b + c + d - whole) <= tolerance) return a + b + c + d;
+    return refined(f, t0, t, p0, p, a, tolerance / 2., depth - 1) +
+           refined(f, t0, t, p, p1, b, tolerance / 2., depth - 1) +
+           refined(f, t, t1, p0, p, c, tolerance / 2., depth - 1) +
+           refined(f, t, t1, p, p1, d, tolerance / 2., depth - 1);
+}
+
 }  // namespace
+
+double integrate_cell(const Function& f, double theta0, double theta1, double phi0, double phi1,
+                      double tolerance) {
+    return refined(f, theta0, theta1, phi0, phi1, rule(f, theta0, theta1, phi0, phi1), tolerance,
+                   8);
+}
 
 Integral integrate_hemisphere(const Function& f, const Vec3d& wi, double tolerance) {
     const double pi = std::numbers::pi;

@@ -19,6 +19,11 @@ using Albedo = Integral;
 Integral integrate_hemisphere(const std::function<double(const Vec3d&)>& f, const Vec3d& wi,
                               double tolerance = 1e-8);
 
+/// Integral over a cell in polar coordinates (radians), halved both ways until the quarters agree
+/// with the whole within `tolerance`, or eight times.
+double integrate_cell(const std::function<double(const Vec3d&)>& f, double theta0, double theta1,
+                      double phi0, double phi1, double tolerance);
+
 /// Share of the light from wi that the model scatters, without its mirror part.
 Albedo directional_albedo(const AnyModel& model, const Vec3d& wi, double nm = 550.,
                           double tolerance = 1e-8);

@@ -1,6 +1,5 @@
 #include "nacre/reflectance/check.h"
 
-#include "nacre/math/quadrature.h"
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
 #include "nacre/reflectance/albedo.h"
@@ -46,17 +45,14 @@ Fit fit_of_sampler(const AnyModel& model, const Vec3d& wo, const CheckOptions& o
     const Evaluator& e = model.evaluator();
     const ValuesD exact = model.values_double(550.);
     const ValuesS values = model.values(Wavelengths::at(Spectral(550.f)));
-    const GaussLegendre nodes(12);
     const double dt = 0.5 * std::numbers::pi / rows, dp = 2. * std::numbers::pi / columns;
     std::vector<double> expected(rows * columns), found(rows * columns);
     Fit fit;
     for (int r = 0; r < rows; ++r)
         for (int c = 0; c < columns; ++c) {
-            const double mass = nodes.integrate(r * dt, (r + 1) * dt, [&](double theta) {
-                return std::sin(theta) * nodes.integrate(c * dp, (c + 1) * dp, [&](double phi) {
-                    return e.pdf(exact, direction(theta, phi), wo);
-                });
-            });
+            const double mass =
+                integrate_cell([&](const Vec3d& wi) { return e.pdf(exact, wi, wo); }, r * dt,
+                               (r + 1) * dt, c * dp, (c + 1) * dp, 1e-7);
             fit.mass += mass;
             expected[r * columns + c] = mass * options.samples;
         }

@@ -1,0 +1,81 @@
+#pragma once
+// Runs the program in a folder of its own, as a user does.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace nacre::test {
+
+namespace fs = std::filesystem;
+
+/// A sphere of a diffuse material in a constant light: a quick scene without other files.
+inline constexpr const char* quick_scene = R"(<scene version="3.0.0">
+    <default name="spp" value="2"/>
+    <integrator type="path"/>
+    <sensor type="perspective">
+        <transform name="to_world">
+            <lookat origin="0, 0, 5" target="0, 0, 0" up="0, 1, 0"/>
+        </transform>
+        <sampler type="independent"><integer name="sample_count" value="$spp"/></sampler>
+        <film type="hdrfilm">
+            <integer name="width" value="24"/>
+            <integer name="height" value="16"/>
+            <rfilter type="box"/>
+        </film>
+    </sensor>
+    <emitter type="constant"><rgb name="radiance" value="0.5, 0.5, 0.5"/></emitter>
+    <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="1, 1, 1"/></bsdf></shape>
+</scene>
+)";
+
+struct Outcome {
+    int code = -1;
+    std::string out, err;
+};
+
+class CommandLine : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!fs::exists(NACRE_BINARY)) GTEST_SKIP() << "no program at " << NACRE_BINARY;
+        folder_ = fs::path(testing::TempDir()) /
+                  fmt::format("nacre_cli_{}_{}", getpid(),
+                              testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / "quick.xml") << quick_scene;
+        std::ofstream(folder_ / "flat.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    }
+    void TearDown() override {
+        if (!folder_.empty()) fs::remove_all(folder_);
+    }
+
+    std::string read(const fs::path& file) const {
+        std::ifstream in(file);
+        return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    }
+    /// Runs `nacre arguments` in the test's folder.
+    Outcome nacre(const std::string& arguments) const {
+        const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+        const std::string line = fmt::format("cd '{}' && '{}' {} >stdout 2>stderr",
+                                             folder_.string(), NACRE_BINARY, arguments);
+        const int status = std::system(line.c_str());
+        Outcome r{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+        fs::remove(out);
+        fs::remove(err);
+        return r;
+    }
+    /// Files beyond those that SetUp made.
+    std::vector<std::string> written() const {
+        std::vector<std::string> r;
+        for (const auto& f : fs::directory_iterator(folder_))
+            if (f.path().filename() != "quick.xml" && f.path().filename() != "flat.obj")
+                r.push_back(f.path().filename().string());
+        std::sort(r.begin(), r.end());
+        return r;
+    }
+    fs::path folder_;
+};
+
+}  // namespace nacre::test
