@@ -9,7 +9,7 @@ namespace nacre::cli {
 namespace {
 
 struct Options {
-    std::string output = "demo.png", size = "512x512";
+    std::string output = "demo.png", size = "360x480";
     int spp = 0, threads = 0;
     double timeout = 50;
     bool quiet = false;
