@@ -229,7 +229,7 @@ const Wrong objects[] = {
      "'luminance'?"},
     {"IntegratorUnknown", R"(<integrator type="bdpt"/>)",
      "scene.xml:2:1: unknown integrator type 'bdpt'; known are: path, volpath, volpathmis, ray, "
-     "moment"},
+     "legacy, moment"},
     {"MomentOfNothing", R"(<integrator type="moment"/>)",
      "scene.xml:2:1: <integrator type=\"moment\"> wraps exactly one <integrator>; got 0"},
     {"UnitZero", R"(<float name="mm_per_unit" value="0"/>)",
