@@ -342,5 +342,20 @@ TEST_F(Legacy, NeedsAModel) {
               "<integrator type=\"legacy\"> with a <string name=\"model\">, such as \"3+13\"");
 }
 
+// The gallery's scenes are named after the model that they show; all of the stage is lit.
+TEST_F(Legacy, TheGalleryShowsEveryModel) {
+    for (const Description* model : illumination::descriptions()) {
+        const std::string name = fmt::format("{:02}_{}.xml", model->number, model->name);
+        const Scene s = load_scene(NACRE_SOURCE_DIR "/gallery/illumination/" + name);
+        ASSERT_TRUE(s.integrator.legacy) << name;
+        const LegacyModel* shown = s.integrator.legacy->find(model->part);
+        ASSERT_TRUE(shown) << name;
+        EXPECT_EQ(shown->model, model) << name;
+        EXPECT_TRUE(s.warnings.empty()) << name << ": " << s.warnings.front();
+        const Vec3d ball = look(s, {0, 2.4f, 6}, {0.1f, -1.4f, -6});
+        EXPECT_TRUE(ball.x > 0.02 && ball.x < 20) << name << " " << ball.x;
+    }
+}
+
 }  // namespace
 }  // namespace nacre
