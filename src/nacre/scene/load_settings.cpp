@@ -49,7 +49,8 @@ FilterSettings read_filter(const SceneNode& node) {
 }  // namespace
 
 IntegratorSettings read_integrator(const SceneNode& node) {
-    const std::vector<std::string> known = {"path", "volpath", "volpathmis", "ray", "legacy", "moment"};
+    const std::vector<std::string> known = {"path", "volpath", "volpathmis",
+                                            "ray",  "legacy",  "moment"};
     IntegratorSettings settings;
     if (node.type == "moment") {
         const auto nested = node.children_of("integrator");
