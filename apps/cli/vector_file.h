@@ -56,13 +56,19 @@ inline AnyModel model_of_vector(const GroupModel& who, const nlohmann::json& par
         if (std::find(fixed.begin(), fixed.end(), meant(s.name).front()) == fixed.end())
             settings.push_back(std::move(s));
     }
-    // A vector that names no diffuse albedo has none.
-    for (const Parameter& p : who.evaluator->description().parameters) {
-        const auto sets_it = [&](const Setting& s) { return s.name == p.name; };
-        if (p.name == "kd" && std::none_of(settings.begin(), settings.end(), sets_it))
-            settings.push_back({"kd", 0.});
-    }
     if (who.group->adapt) who.group->adapt(settings);
+    // A vector that does not name them means no diffuse part and the whole highlight.
+    const auto& parameters_of_model = who.evaluator->description().parameters;
+    for (std::size_t i = 0; i < parameters_of_model.size(); ++i) {
+        const std::string name(parameters_of_model[i].name);
+        const auto sets_it = [&](const Setting& s) {
+            const std::vector<int> set = meant(s.name);
+            return std::find(set.begin(), set.end(), int(i)) != set.end();
+        };
+        if ((name == "kd" || name == "ks") &&
+            std::none_of(settings.begin(), settings.end(), sets_it))
+            settings.push_back({name, name == "kd" ? 0. : 1.});
+    }
     return AnyModel(*who.evaluator, settings, Bounds::ranges_only);
 }
 

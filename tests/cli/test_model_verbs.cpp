@@ -7,6 +7,7 @@
 namespace nacre {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using test::Outcome;
 
@@ -127,6 +128,17 @@ TEST_F(ModelVerbs, CheckFindsWrongVectors) {
     const Outcome wrong = nacre("check --vectors wrong.json");
     EXPECT_EQ(wrong.code, 1);
     EXPECT_NE(wrong.out.find("WRONG at a"), std::string::npos) << wrong.out;
+}
+
+// The file from which the tests' own values are taken: everything but tables is answered.
+TEST_F(ModelVerbs, CheckAnswersTheReferenceFile) {
+    const std::string file = NACRE_SHARED_DIR "/reference/reflectance_vectors.json";
+    if (!fs::exists(file)) GTEST_SKIP() << "no shared reference data";
+    const Outcome r = nacre(fmt::format("check --vectors '{}'", file));
+    EXPECT_EQ(r.code, 0) << r.out;
+    // A heading, 58 models, 9 of the 11 functions, an empty line and what is not covered.
+    EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 1 + 58 + 9 + 2) << r.out;
+    EXPECT_NE(r.out.find("merl, svd"), std::string::npos) << r.out;
 }
 
 TEST_F(ModelVerbs, CheckOfAModelSaysWhatItChecked) {

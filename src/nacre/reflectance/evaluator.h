@@ -39,7 +39,7 @@ class Evaluator {
 
     virtual const ModelDescription& description() const = 0;
     /// The names that the model's own `parameters` visits: those of the description, in its order.
-    virtual std::vector<std::string_view> parameter_names() const = 0;
+    virtual std::vector<std::string> parameter_names() const = 0;
 
     /// BRDF, sr^-1, without cosine; 0 below the horizon. Mirror parts are not in it.
     virtual double eval(const ValuesD& values, const Vec3d& wi, const Vec3d& wo) const = 0;

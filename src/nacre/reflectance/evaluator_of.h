@@ -65,10 +65,10 @@ class EvaluatorOf final : public Evaluator {
 
   public:
     const ModelDescription& description() const override { return Double::describe(); }
-    std::vector<std::string_view> parameter_names() const override {
-        std::vector<std::string_view> names;
+    std::vector<std::string> parameter_names() const override {
+        std::vector<std::string> names;
         Double model{};
-        Double::parameters(model, [&](std::string_view name, auto&) { names.push_back(name); });
+        Double::parameters(model, [&](std::string_view name, auto&) { names.emplace_back(name); });
         return names;
     }
 
