@@ -4,19 +4,26 @@
 #include <ceres/jet.h>
 
 #include "nacre/reflectance/blinn_phong.h"
+#include "nacre/reflectance/blinn_torrance_sparrow.h"
+#include "nacre/reflectance/cook_torrance.h"
 #include "nacre/reflectance/eon.h"
 #include "nacre/reflectance/evaluator_of.h"
+#include "nacre/reflectance/ggx_smith.h"
+#include "nacre/reflectance/he_torrance.h"
+#include "nacre/reflectance/lafortune.h"
 #include "nacre/reflectance/lambert.h"
 #include "nacre/reflectance/models.h"
 #include "nacre/reflectance/oren_nayar.h"
 #include "nacre/reflectance/phong.h"
 #include "nacre/reflectance/registry.h"
+#include "nacre/reflectance/schlick_ct.h"
+#include "nacre/reflectance/torrance_sparrow.h"
 #include "nacre/reflectance/ward.h"
 
 namespace nacre {
 namespace {
 
-constexpr int size = 8;
+constexpr int size = 32;
 using Jet = ceres::Jet<double, size>;
 
 /// Derivatives at the examples of the description against central differences.
@@ -33,6 +40,8 @@ void check_derivatives() {
         for (std::size_t i = 0; i < m.parameters.size(); ++i) {
             jets.option[i] = values.option[i];
             const ParameterKind kind = m.parameters[i].kind;
+            if (kind == ParameterKind::wavelength) jets.set_color(i, Jet(values.color[i]));
+            if (kind == ParameterKind::wavelength) jets.set_scalar(i, Jet(values.scalar[i]));
             if (kind != ParameterKind::spectrum && kind != ParameterKind::scalar) continue;
             jets.set_scalar(i, Jet(values.scalar[i], int(varied.size())));
             varied.push_back(int(i));

@@ -3,13 +3,21 @@
 // (family_*.cpp), beside its own header; docs/adding-a-model.md walks through it.
 
 // clang-format off
-#define NACRE_MODELS(X)  \
-    X(Lambert)           \
-    X(OrenNayar)         \
-    X(Eon)               \
-    X(Phong)             \
-    X(BlinnPhong)        \
-    X(Ward)
+#define NACRE_MODELS(X)      \
+    X(Lambert)               \
+    X(OrenNayar)             \
+    X(Eon)                   \
+    X(Phong)                 \
+    X(BlinnPhong)            \
+    X(TorranceSparrow)       \
+    X(BlinnTorranceSparrow)  \
+    X(CookTorrance)          \
+    X(GgxSmith)              \
+    X(Ward)                  \
+    X(Schlick)               \
+    X(SchlickCt)             \
+    X(HeTorrance)            \
+    X(Lafortune)
 // clang-format on
 
 namespace nacre {

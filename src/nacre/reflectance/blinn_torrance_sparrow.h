@@ -1,0 +1,108 @@
+#pragma once
+// Blinn 1977: Torrance and Sparrow's facets for computer graphics.
+//
+//   J. F. Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77.
+//   f = kd/pi + ks D G F / (wi.z wo.z): the intensity k_s D G F / (n.v) of the paper over n.l.
+//   D has the peak 1 and is one half at the angle beta from the normal:
+//   phong             t^Ns,                              Ns = -ln 2 / ln cos(beta)
+//   torrance_sparrow  exp(-(C1 theta)^2),                C1 = sqrt(ln 2) / beta
+//   trowbridge_reitz  (C2^2 / (t^2 (C2^2 - 1) + 1))^2,   C2^2 = (1 - c^2)/(sqrt 2 - c^2)
+//   c = cos(beta), t = cos(theta) = h.z; G: v-cavities, as in torrance_sparrow.h
+#include "nacre/reflectance/facets.h"
+
+namespace nacre {
+
+enum class BlinnDistribution { phong, torrance_sparrow, trowbridge_reitz };
+
+inline const ModelDescription& blinn_torrance_sparrow_description() {
+    static const ModelDescription description = [] {
+        ModelDescription d{
+            .name = "blinn_torrance_sparrow",
+            .title = "Blinn's Torrance-Sparrow",
+            .authors = "J. F. Blinn",
+            .year = 1977,
+            .paper = "Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77",
+            .equations = "unnumbered; D1, D2, D3 with the constants c1, c2, c3",
+            .formula =
+                "f = kd/pi + ks D G F / (wi.z wo.z), t = h.z = cos(theta)\n"
+                "phong:            D = t^Ns, Ns = -ln 2 / ln cos(beta)\n"
+                "torrance_sparrow: D = exp(-(C1 theta)^2), C1 = sqrt(ln 2)/beta\n"
+                "trowbridge_reitz: D = (C2^2/(t^2 (C2^2-1) + 1))^2,\n"
+                "                  C2^2 = (1 - cos^2 beta)/(sqrt 2 - cos^2 beta)\n"
+                "G = min(1, 2 t wi.z/u, 2 t wo.z/u), u = wi.h",
+            .parameters = {choice_parameter("distribution", "of the facets",
+                                            {{"phong", "Blinn's D1", {"P"}},
+                                             {"torrance_sparrow", "his D2, a Gaussian", {"TS"}},
+                                             {"trowbridge_reitz", "his D3", {"TR", "ggx"}}},
+                                            2, {"Datt"}),
+                           diffuse_parameter(0.5),
+                           {.name = "ks",
+                            .meaning = "weight of the highlight",
+                            .kind = ParameterKind::spectrum,
+                            .high = 100.,
+                            .otherwise = 0.5},
+                           {.name = "beta",
+                            .meaning = "angle from the normal at which D is one half",
+                            .unit = "degrees",
+                            .high = 89.,
+                            .above_low = true,
+                            .otherwise = 15.,
+                            .aliases = {"beta_deg"}}},
+            .behaviours =
+                {{.options = "ks=0.5",
+                  .energy_note =
+                      "for ks <= D_n/4, where D_n, the peak of the normalised density, is "
+                      "(Ns+2)/(2 pi) or 1/(pi C2^2)",
+                  .examples = {"kd=0 distribution=phong beta=20 fresnel=one",
+                               "kd=0 distribution=torrance_sparrow beta=10 n=1.8",
+                               "kd=0.3 distribution=trowbridge_reitz beta=15"}},
+                 {.options = "ks=4 kd=0 fresnel=one",
+                  .energy = Energy::exceeds,
+                  .energy_note = "for larger ks: D is not normalised",
+                  .witness = "distribution=phong beta=20",
+                  .examples = {"distribution=phong beta=20"}}},
+            .sampling = "one-sample mixture of the cosine and mirrored normals of density D h.z",
+            .errata =
+                {"Secondary literature prints the Trowbridge-Reitz form without its outer square, "
+                 "and C2 <= 0 where it is >= 0.",
+                 "A listing of these models in circulation defines sqrt(2) as 1.7725, which is "
+                 "sqrt(pi)."},
+            .references = {"J. F. Blinn 1977, SIGGRAPH 77, 192-198",
+                           "T. S. Trowbridge, K. P. Reitz 1975, JOSA 65(5), 531-536"},
+        };
+        add_fresnel_parameters(d.parameters);
+        d.groups = {{.name = "blinn_torrance_sparrow"}};
+        return d;
+    }();
+    return description;
+}
+
+template <class D, class P = D, class S = D>
+struct BlinnTorranceSparrow : FacetReflection<D, P, S> {
+    using Facets = FacetReflection<D, P, S>;
+
+    BlinnDistribution form;
+    S beta;
+
+    static const ModelDescription& describe() { return blinn_torrance_sparrow_description(); }
+    template <class Self, class F>
+    static void parameters(Self& m, F&& f) {
+        f("distribution", m.form);
+        f("kd", m.kd);
+        f("ks", m.ks);
+        f("beta", m.beta);
+        m.fresnel.parameters(m.fresnel, f);
+    }
+    void prepare() {
+        this->distribution = form == BlinnDistribution::phong ? FacetDistribution::phong
+                             : form == BlinnDistribution::torrance_sparrow
+                                 ? FacetDistribution::gauss
+                                 : FacetDistribution::trowbridge_reitz;
+        this->m[0] = width_of_half_height(this->distribution, beta * S(std::numbers::pi / 180));
+        Facets::prepare();
+        // The common form divides by 4 and has a normalised D.
+        this->scale = S(4) / this->peak();
+    }
+};
+
+}  // namespace nacre

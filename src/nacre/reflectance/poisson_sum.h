@@ -1,0 +1,100 @@
+#pragma once
+// Sums over a Poisson distribution, of He-Torrance: the number of rough scatterings that a
+// surface's phase variation g stands for.
+#include "nacre/math/lanes_math.h"
+#include "nacre/reflectance/model.h"
+
+namespace nacre {
+
+namespace poisson_detail {
+
+/// log(j!) - ((j + 1/2) log j - j + log(2 pi)/2): Stirling's series from 10 on.
+inline double stirling_error(int j) {
+    if (j >= 10) {
+        const double x = 1. / j, x2 = x * x;
+        return x * (1. / 12 - x2 * (1. / 360 - x2 * (1. / 1260 - x2 * (1. / 1680 - x2 / 1188))));
+    }
+    double factorial = 1.;
+    for (int i = 2; i <= j; ++i) factorial *= i;
+    return std::log(factorial) - (j + 0.5) * std::log(j) + j -
+           0.5 * std::log(2. * std::numbers::pi);
+}
+
+/// Smallest and largest lane, as plain numbers.
+template <class T>
+std::pair<double, double> range(const T& x) {
+    if constexpr (requires { T::size; })
+        return {double(min_lane(x)), double(max_lane(x))};
+    else if constexpr (requires { x.a; })  // a dual number
+        return {double(x.a), double(x.a)};
+    else
+        return {double(x), double(x)};
+}
+
+}  // namespace poisson_detail
+
+/// sum_{j>=1} g^j e^-g / (j! j) exp(-q/j) for g, q >= 0.
+///
+/// The weights are computed by their deviance (C. Loader 2000, Fast and Accurate Computation of
+/// Binomial Probabilities), which neither overflows nor loses digits for large g, and those below
+/// 1e-20 of the largest are left out. Terms change over sqrt(g): for large g steps of up to
+/// sqrt(g)/2.5 sum to the same, as the trapezoidal rule on a bell curve does (error exp(-2 pi^2
+/// 2.5^2), more where q sharpens it, and still below 1e-12).
+template <class T>
+T poisson_sum(const T& g, const T& q) {
+    using std::exp, std::log;
+    const auto [low, high] = poisson_detail::range(g);
+    const int first = std::max(1, int(low - 10. * std::sqrt(low)));
+    const int last = int(high + 14. * std::sqrt(high) + 60.);
+    const int step = std::max(1, int(std::sqrt(low) / 2.5));
+    const T mean = at_least(g, 1e-30);
+    T sum = T(0.f);
+    for (int j = first; j <= last; j += step) {
+        const T ratio = T(float(j)) / mean;
+        const T deviance = mean * (ratio * log(ratio) - (ratio - T(1.f)));
+        const double constant = step * std::exp(-poisson_detail::stirling_error(j)) /
+                                (j * std::sqrt(2. * std::numbers::pi * j));
+        sum += T(constant) * exp(T(T(0.f) - deviance - q / T(float(j))));
+    }
+    return sum;
+}
+
+/// The mixture of two-dimensional normal distributions to sample such a sum: of variance s j/2 a
+/// direction, j >= 1 Poisson distributed with the mean g. From g = 50 on j = g stands for all: the
+/// mixture has become one, to a factor of exp(x^2/(2 g)) at a distance of sqrt(2 x) deviations.
+class PoissonNormals {
+  public:
+    PoissonNormals(double g, double s) : g_(std::max(g, 1e-12)), s_(s) {}
+
+    /// Distance from the centre, for two uniform numbers in [0, 1).
+    double radius(double u, double v) const {
+        double j = g_;
+        if (g_ < many) {
+            double weight = g_ / std::expm1(g_);
+            for (j = 1.; u >= weight && j < last; weight *= g_ / j) {
+                u -= weight;
+                j += 1.;
+            }
+        }
+        return std::sqrt(-s_ * j * std::log(1. - v));
+    }
+    /// Density over the plane at the squared distance r2.
+    double density(double r2) const {
+        const auto normal = [&](double j) {
+            return std::exp(-r2 / (s_ * j)) / (std::numbers::pi * s_ * j);
+        };
+        if (!(g_ < many)) return normal(g_);
+        double sum = 0., weight = g_ / std::expm1(g_);
+        for (double j = 1.; j <= last; weight *= g_ / j) {
+            sum += weight * normal(j);
+            j += 1.;
+        }
+        return sum;
+    }
+
+  private:
+    static constexpr double many = 50., last = 160.;
+    double g_, s_;
+};
+
+}  // namespace nacre
