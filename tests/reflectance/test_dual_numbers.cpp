@@ -41,7 +41,6 @@ void check_derivatives() {
             jets.option[i] = values.option[i];
             const ParameterKind kind = m.parameters[i].kind;
             if (kind == ParameterKind::wavelength) jets.set_color(i, Jet(values.color[i]));
-            if (kind == ParameterKind::wavelength) jets.set_scalar(i, Jet(values.scalar[i]));
             if (kind != ParameterKind::spectrum && kind != ParameterKind::scalar) continue;
             jets.set_scalar(i, Jet(values.scalar[i], int(varied.size())));
             varied.push_back(int(i));
