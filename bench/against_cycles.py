@@ -26,7 +26,7 @@ SHARED = ROOT / ".." / "shared" / "bench"
 PEERS = ROOT / "build" / "peers"
 TARGET = 0.01
 # Samples per pixel: nacre's reference, nacre, Cycles.
-SCENES = {"marble": (320, 96, 8), "diffuse": (2048, 48, 48)}
+SCENES = {"marble": (320, 96, 8), "diffuse": (1024, 48, 48)}
 
 
 def run(command):

@@ -13,12 +13,23 @@
 
 namespace nacre {
 
+namespace wide_detail {
+
+#if defined(__AVX512F__) && !defined(__OPTIMIZE__)
+// xsimd 8 does not compile for AVX-512 without optimisation: g++'s intrinsics are macros then, with
+// casts that a pack does not take.
+using Batch = xsimd::batch<float, xsimd::avx2>;
+#else
+using Batch = xsimd::batch<float>;
+#endif
+
+}  // namespace wide_detail
+
 /// 16 floats with AVX-512, 8 with AVX2.
-using Wide = Lanes<float, int(xsimd::batch<float>::size)>;
+using Wide = Lanes<float, int(wide_detail::Batch::size)>;
 
 namespace wide_detail {
 
-using Batch = xsimd::batch<float>;
 inline Batch batch(Wide x) { return Batch(reinterpret_cast<Batch::register_type>(x.v)); }
 inline Wide wide(Batch b) { return Wide::from(reinterpret_cast<Wide::Native>(b.data)); }
 
