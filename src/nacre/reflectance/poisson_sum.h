@@ -20,6 +20,19 @@ inline double stirling_error(int j) {
            0.5 * std::log(2. * std::numbers::pi);
 }
 
+/// e^-j j^j / (j! j): the weight of j for the mean j, over j.
+inline double central_weight(int j) {
+    const auto compute = [](int i) {
+        return std::exp(-stirling_error(i)) / (i * std::sqrt(2. * std::numbers::pi * i));
+    };
+    static const auto first = [&] {
+        std::array<double, 512> r{};
+        for (int i = 1; i < 512; ++i) r[i] = compute(i);
+        return r;
+    }();
+    return j < 512 ? first[j] : compute(j);
+}
+
 /// Smallest and largest lane, as plain numbers.
 template <class T>
 std::pair<double, double> range(const T& x) {
@@ -49,11 +62,10 @@ T poisson_sum(const T& g, const T& q) {
     const int step = std::max(1, int(std::sqrt(low) / 2.5));
     const T mean = at_least(g, 1e-30);
     T sum = T(0.f);
-    for (int j = first; j <= last; j += step) {
+    for (int j = first; j <= last_; j += step) {
         const T ratio = T(float(j)) / mean;
         const T deviance = mean * (ratio * log(ratio) - (ratio - T(1.f)));
-        const double constant = step * std::exp(-poisson_detail::stirling_error(j)) /
-                                (j * std::sqrt(2. * std::numbers::pi * j));
+        const double constant = step * poisson_detail::central_weight(j);
         sum += T(constant) * exp(T(T(0.f) - deviance - q / T(float(j))));
     }
     return sum;
@@ -64,14 +76,15 @@ T poisson_sum(const T& g, const T& q) {
 /// mixture has become one, to a factor of exp(x^2/(2 g)) at a distance of sqrt(2 x) deviations.
 class PoissonNormals {
   public:
-    PoissonNormals(double g, double s) : g_(std::max(g, 1e-12)), s_(s) {}
+    PoissonNormals(double g, double s)
+        : g_(std::max(g, 1e-12)), s_(s), last_(std::ceil(g_ + 14. * std::sqrt(g_) + 20.)) {}
 
     /// Distance from the centre, for two uniform numbers in [0, 1).
     double radius(double u, double v) const {
         double j = g_;
         if (g_ < many) {
             double weight = g_ / std::expm1(g_);
-            for (j = 1.; u >= weight && j < last; weight *= g_ / j) {
+            for (j = 1.; u >= weight && j < last_; weight *= g_ / j) {
                 u -= weight;
                 j += 1.;
             }
@@ -85,7 +98,7 @@ class PoissonNormals {
         };
         if (!(g_ < many)) return normal(g_);
         double sum = 0., weight = g_ / std::expm1(g_);
-        for (double j = 1.; j <= last; weight *= g_ / j) {
+        for (double j = 1.; j <= last_; weight *= g_ / j) {
             sum += weight * normal(j);
             j += 1.;
         }
@@ -93,8 +106,8 @@ class PoissonNormals {
     }
 
   private:
-    static constexpr double many = 50., last = 160.;
-    double g_, s_;
+    static constexpr double many = 50.;
+    double g_, s_, last_;
 };
 
 }  // namespace nacre
