@@ -62,7 +62,7 @@ T poisson_sum(const T& g, const T& q) {
     const int step = std::max(1, int(std::sqrt(low) / 2.5));
     const T mean = at_least(g, 1e-30);
     T sum = T(0.f);
-    for (int j = first; j <= last_; j += step) {
+    for (int j = first; j <= last; j += step) {
         const T ratio = T(float(j)) / mean;
         const T deviance = mean * (ratio * log(ratio) - (ratio - T(1.f)));
         const double constant = step * poisson_detail::central_weight(j);
