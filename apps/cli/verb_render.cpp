@@ -21,9 +21,10 @@ struct Options {
     bool no_distance_grid = false, no_guided_exits = false;
 };
 
-bool is_xml(const std::filesystem::path& file) {
+// Scenes of another renderer go to the scene reader too, which says what to do with them.
+bool is_scene(const std::filesystem::path& file) {
     const std::string ext = file.extension().string();
-    return ext == ".xml" || ext == ".XML";
+    return ext == ".xml" || ext == ".XML" || ext == ".pbrt";
 }
 
 std::optional<ColorMode> parse_mode(const std::string& text) {
@@ -61,7 +62,7 @@ Scene load(const Options& o, const CLI::App& app) {
         if (app.count(option)) throw InputError(fmt::format("{}: {} {}", o.scene, option, why));
     };
     const std::optional<ColorMode> mode = parse_mode(o.mode);
-    if (is_xml(file)) {
+    if (is_scene(file)) {
         const char* why = "is for bare meshes; a scene says itself what its shapes are";
         refuse("--material", why);
         refuse("--height-mm", why);
