@@ -1,5 +1,6 @@
 #pragma once
-// Standard headers that most files use, compiled once. Nothing of nacre belongs here: a change would rebuild everything.
+// Standard headers that most files use, compiled once. Nothing of nacre belongs here: a change
+// would rebuild everything.
 #include <fmt/format.h>
 
 #include <algorithm>
