@@ -8,33 +8,10 @@
 #include "nacre/geometry/figure.h"
 #include "nacre/scene/light_types.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/scene/write_nodes.h"
 
 namespace nacre {
 namespace {
-
-using NodePtr = std::shared_ptr<SceneNode>;
-
-NodePtr make_node(const char* tag, const char* type) {
-    auto node = std::make_shared<SceneNode>();
-    node->tag = tag;
-    node->type = type;
-    return node;
-}
-
-template <class T>
-void set(const NodePtr& node, const char* name, const char* tag, T value) {
-    node->values.push_back({name, tag, std::move(value), {}});
-}
-
-void set_rgb(const NodePtr& node, const char* name, const Vec3f& rgb) {
-    ColorValue color;
-    color.rgb = rgb;
-    set(node, name, "rgb", color);
-}
-
-void add(const NodePtr& parent, NodePtr child, const char* name = "") {
-    parent->children.push_back({name, std::move(child), {}});
-}
 
 // Where the camera stands and looks, and where the head is (mm; figure.h says how the bust stands).
 const Vec3d eye{422, 260, 795}, aim{0, 228, 0}, head{0, 290, 0};
