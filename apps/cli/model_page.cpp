@@ -35,27 +35,6 @@ std::string indented(std::string_view lines) {
     return result + "\n";
 }
 
-std::string_view kind_name(ParameterKind kind) {
-    switch (kind) {
-        case ParameterKind::spectrum:
-            return "spectrum";
-        case ParameterKind::scalar:
-            return "number";
-        case ParameterKind::choice:
-            return "choice";
-        case ParameterKind::integer:
-            return "whole number";
-        case ParameterKind::wavelength:
-            return "wavelength";
-    }
-    return "";
-}
-
-std::string default_text(const Parameter& p) {
-    return p.kind == ParameterKind::choice ? std::string(p.choices[std::size_t(p.otherwise)].name)
-                                           : fmt::format("{}", p.otherwise);
-}
-
 std::string parameter_text(const Parameter& p) {
     std::string facts = fmt::format("{}, {}", kind_name(p.kind),
                                     p.kind == ParameterKind::choice ? "" : range_text(p));
@@ -84,6 +63,27 @@ std::string behaviour_text(const Behaviour& b) {
 }
 
 }  // namespace
+
+std::string_view kind_name(ParameterKind kind) {
+    switch (kind) {
+        case ParameterKind::spectrum:
+            return "spectrum";
+        case ParameterKind::scalar:
+            return "number";
+        case ParameterKind::choice:
+            return "choice";
+        case ParameterKind::integer:
+            return "whole number";
+        case ParameterKind::wavelength:
+            return "wavelength";
+    }
+    return "";
+}
+
+std::string default_text(const Parameter& p) {
+    return p.kind == ParameterKind::choice ? std::string(p.choices[std::size_t(p.otherwise)].name)
+                                           : fmt::format("{}", p.otherwise);
+}
 
 std::string model_page(const ModelDescription& m) {
     std::string page = fmt::format("{}: {}\n\n", m.name, m.title);

@@ -9,5 +9,8 @@ namespace nacre::cli {
 
 std::string model_page(const ModelDescription& model);
 nlohmann::ordered_json model_json(const ModelDescription& model);
+/// "spectrum", "number", ... and the default as it is written; for other pages of the same facts.
+std::string_view kind_name(ParameterKind kind);
+std::string default_text(const Parameter& parameter);
 
 }  // namespace nacre::cli

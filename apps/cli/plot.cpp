@@ -18,17 +18,6 @@ std::string csv_of(const Table& table) {
     return text;
 }
 
-void write_whole(const fs::path& path, const std::string& text) {
-    const fs::path beside = path.string() + ".part";
-    {
-        std::ofstream out(beside, std::ios::binary);
-        out << text;
-        out.close();
-        if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
-    }
-    fs::rename(beside, path);
-}
-
 /// A string of gnuplot's that nothing in it can end or start a command from.
 std::string quoted(const std::string& text) {
     std::string r = "'";
@@ -37,14 +26,13 @@ std::string quoted(const std::string& text) {
 }
 
 /// Numbers in the form of gnuplot; an image's rows are kept apart by the first column.
-std::string gnuplot_script(const Table& t, const fs::path& output, bool svg) {
-    std::string s = svg ? "set terminal svg size 720,540 dynamic background rgb 'white'\n"
-                        : "set terminal pngcairo size 1080,810 fontscale 1.4\n";
+std::string gnuplot_script(const Table& t, const fs::path& output, const std::string& set_up) {
+    std::string s = set_up + "\n";
     s += fmt::format("set output {}\nset title {} noenhanced\n", quoted(output.string()),
                      quoted(t.title));
     s += "$data << END\n";
     for (const auto& row : t.rows) s += fmt::format("{:.8g}\n", fmt::join(row, " "));
-    s += "END\nset key noenhanced\nset grid\n";
+    s += "END\nset key noenhanced\n";
     const auto curves = [&](const std::string& using_format) {
         std::string plot;
         for (std::size_t c = 1; c < t.columns.size(); ++c)
@@ -87,7 +75,31 @@ void run_gnuplot(const std::string& script) {
             "gnuplot failed or is not there (Debian: gnuplot-nox); a .csv needs no gnuplot");
 }
 
+/// The picture, whole or not at all.
+void draw(const Table& table, const fs::path& path, const std::string& set_up) {
+    const fs::path beside = path.string() + ".part";
+    try {
+        run_gnuplot(gnuplot_script(table, beside, set_up));
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(beside, ignored);
+        throw;
+    }
+    fs::rename(beside, path);
+}
+
 }  // namespace
+
+void write_text(const fs::path& path, const std::string& text) {
+    const fs::path beside = path.string() + ".part";
+    {
+        std::ofstream out(beside, std::ios::binary);
+        out << text;
+        out.close();
+        if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
+    }
+    fs::rename(beside, path);
+}
 
 void write_table(const Table& table, const fs::path& path) {
     if (path.empty()) {
@@ -99,17 +111,19 @@ void write_table(const Table& table, const fs::path& path) {
         throw InputError(
             fmt::format("cannot write '{}': a table becomes .csv, .svg or .png", path.string()));
     fs::path csv = path;
-    write_whole(csv.replace_extension(".csv"), csv_of(table));
+    write_text(csv.replace_extension(".csv"), csv_of(table));
     if (extension == ".csv") return;
-    const fs::path beside = path.string() + ".part";
-    try {
-        run_gnuplot(gnuplot_script(table, beside, extension == ".svg"));
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(beside, ignored);
-        throw;
-    }
-    fs::rename(beside, path);
+    draw(table, path,
+         extension == ".svg"
+             ? "set grid\nset terminal svg size 720,540 dynamic background rgb 'white'"
+             : "set grid\nset terminal pngcairo size 1080,810 fontscale 1.4");
+}
+
+void draw_table(const Table& table, const fs::path& path) {
+    // The scale is that of the vertical axis; every further mark would only make the file larger.
+    draw(table, path,
+         "set border 2\nunset xtics\nset ytics nomirror\n"
+         "set terminal svg size 420,320 dynamic background rgb 'white'");
 }
 
 }  // namespace nacre::cli

@@ -24,5 +24,9 @@ struct Table {
 /// appears whole or not at all. Throws InputError for another extension, RunError if a file cannot
 /// be written or gnuplot is absent or fails. An empty path prints the CSV.
 void write_table(const Table& table, const std::filesystem::path& path);
+/// A small picture alone, .svg, as pages show it. Throws RunError as write_table does.
+void draw_table(const Table& table, const std::filesystem::path& path);
+/// Writes a text file, whole or not at all. Throws RunError.
+void write_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace nacre::cli

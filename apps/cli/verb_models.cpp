@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/model_docs.h"
 #include "apps/cli/model_page.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
@@ -137,20 +138,28 @@ int show(const std::string& name, bool json) {
 }
 
 struct Options {
-    bool json = false;
-    std::string name;
+    bool json = false, text = false;
+    std::string name, folder;
 };
 
 }  // namespace
 
-Action set_up_models(CLI::App& app, const Invocation&) {
+Action set_up_models(CLI::App& app, const Invocation& invocation) {
     auto o = std::make_shared<Options>();
     app.add_flag("--json", o->json, "for programs");
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
     sub->add_option("name", o->name, "a material, medium, phase function or integrator")
         ->required();
     sub->add_flag("--json", o->json, "for programs");
-    return [o, sub] { return sub->parsed() ? show(o->name, o->json) : list(o->json); };
+    CLI::App* docs = app.add_subcommand("docs", "write the pages of all reflectance models");
+    docs->add_option("folder", o->folder, "where to; docs/models of the repository")->required();
+    docs->add_flag("--text", o->text, "the pages without their pictures");
+    return [o, sub, docs, invocation] {
+        if (docs->parsed())
+            return write_model_docs(o->folder, o->text ? DocsPart::text : DocsPart::all,
+                                    invocation);
+        return sub->parsed() ? show(o->name, o->json) : list(o->json);
+    };
 }
 
 }  // namespace nacre::cli
