@@ -12,11 +12,12 @@ constexpr float uniform_share = 0.1f;
 
 }  // namespace
 
-LightChooser::LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds) {
+LightChooser::LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds,
+                           bool skip_uniform) {
     const float radius = scene_bounds.empty() ? 1.f : 0.5f * length(scene_bounds.diagonal());
     float power = 0.f;
     for (const LightPtr& light : lights) {
-        if (!(light->power() > 0.f)) continue;
+        if (!(light->power() > 0.f) || (skip_uniform && light->is_uniform())) continue;
         Entry entry{light.get(), 0.f, {}, light->power(), 0.f, 0.f};
         const Box3f box = light->bounds();
         if (box.empty()) {

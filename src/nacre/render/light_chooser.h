@@ -13,7 +13,10 @@ namespace nacre {
 /// lights up to `max_ranked`; beyond that power alone decides.
 class LightChooser {
   public:
-    LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds);
+    /// `skip_uniform`: leaves out uniform environments, for integrators whose paths go on and meet
+    /// them by themselves; a sample of them would be a worse one in the place of a lamp's.
+    LightChooser(std::span<const LightPtr> lights, const Box3f& scene_bounds,
+                 bool skip_uniform = false);
 
     struct Choice {
         const Light* light = nullptr;

@@ -42,7 +42,8 @@ Spectral surface_transmittance(const Scene& scene, bool scene_has_null, Point3f 
 
 PathTracer::PathTracer(const Scene& scene, bool recursive_only, Estimators estimators)
     : scene_(scene),
-      lights_(scene.lights, scene.rays.bounds()),
+      lights_(scene.lights, scene.rays.bounds(),
+              !recursive_only && estimators != Estimators::light_only),
       recursive_only_(recursive_only),
       estimators_(estimators),
       has_null_(std::ranges::any_of(

@@ -63,6 +63,14 @@ Spectral VolumePath::trace() {
             break;
         }
         if (!(event == Event::surface ? at_surface() : at_collision())) break;
+        // What a reflection split off shows by itself has been seen; the rest of it is worth its
+        // share of the work only, and a little more.
+        if (faint_ && depth_ > 1) {
+            faint_ = false;
+            const float chance = std::min(1.f, 4.f * relative_weight());
+            if (!(sampler_.random().next() < chance)) break;
+            throughput_ *= Spectral(1.f / chance);
+        }
     }
     return result_;
 }
@@ -189,32 +197,51 @@ bool VolumePath::at_surface() {
     if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &material, wo);
 
     const float u1 = sampler_.next1d();
-    const auto sample = material.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
-    if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
+    const Vec2f u2 = sampler_.next2d();
+    if (depth_ == 0 && wo.z > 0.f && material.smooth_boundary_eta() > 0.f) {
+        // A smooth boundary that the camera sees: both ways are followed, since a mirror image of
+        // a lamp that one path in twenty finds is noise.
+        const auto reflected = material.sample(at, wo, 0.f, u2, wavelengths_);
+        const auto refracted = material.sample(at, wo, 0x1.fffffep-1f, u2, wavelengths_);
+        if (reflected && refracted && reflected->wi.z > 0.f && refracted->wi.z < 0.f) {
+            VolumePath reflection(*this);
+            reflection.result_ = Spectral(0.f);
+            reflection.throughput_ *= Spectral(reflected->pdf);
+            reflection.faint_ = true;
+            if (reflection.follow(at, material, wo, *reflected)) result_ += reflection.trace();
+            throughput_ *= Spectral(refracted->pdf);
+            return follow(at, material, wo, *refracted);
+        }
+    }
+    const auto sample = material.sample(at, wo, u1, u2, wavelengths_);
+    return sample && max_lane(sample->weight) > 0.f && follow(at, material, wo, *sample);
+}
 
-    const Vec3f direction = at.shading.to_world(sample->wi);
+bool VolumePath::follow(const SurfacePoint& at, const Material& material, const Vec3f& wo,
+                        const MaterialSample& sample) {
+    const Vec3f direction = at.shading.to_world(sample.wi);
     const float passing =
-        sample->null ? mean_of(material.null_transmission(at, wo, wavelengths_)) : 0.f;
+        sample.null ? mean_of(material.null_transmission(at, wo, wavelengths_)) : 0.f;
     if (passing > 0.f) {
         // Straight through: the segment goes on, and so does the chance that next-event estimation
         // had to make it.
-        throughput_ *= sample->weight;
+        throughput_ *= sample.weight;
         density_ *= Spectral(passing);
         if (partner_ == Partner::guided_exit) partner_ = Partner::none;
     } else {
         ++depth_;
-        throughput_ *= sample->weight;
-        eta_ *= sample->eta;
+        throughput_ *= sample.weight;
+        eta_ *= sample.eta;
         vertex_ = at.p;
-        vertex_pdf_ = sample->pdf;
+        vertex_pdf_ = sample.pdf;
         partner_density_ = density_;
-        partner_ = sample->delta ? Partner::none : Partner::light_sampling;
+        partner_ = sample.delta ? Partner::none : Partner::light_sampling;
         // From outside as the interpolated normal sees it, no proposal would have come.
-        if (sample->delta && last_collision_.valid && wo.z < 0.f && sample->wi.z > 0.f)
-            expect_guided_exit(sample->pdf);
+        if (sample.delta && last_collision_.valid && wo.z < 0.f && sample.wi.z > 0.f)
+            expect_guided_exit(sample.pdf);
     }
     last_collision_.valid = false;
-    if (sample->single_wavelength && !single_wavelength_) {
+    if (sample.single_wavelength && !single_wavelength_) {
         // The other lanes would have gone elsewhere: the hero goes on alone.
         single_wavelength_ = true;
         hero_ = 0;

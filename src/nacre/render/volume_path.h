@@ -26,6 +26,9 @@ class VolumePath {
     // What happens at the places that `travel` leads to; false ends the path.
     bool at_surface();
     bool at_collision();
+    // Goes on from a surface in the direction of `sample`.
+    bool follow(const SurfacePoint& at, const Material& material, const Vec3f& wo,
+                const MaterialSample& sample);
 
     void add_emission(const Light& light, const SurfacePoint* on_light);
     // Next-event estimation at a surface (material set) or a collision (null), with the density of
@@ -69,6 +72,7 @@ class VolumePath {
     int depth_ = 0;
     float eta_ = 1.f;
     bool single_wavelength_ = false;
+    bool faint_ = false;  // a reflection split off at the first surface, not yet put to roulette
 
     // The other strategy that could have made the present segment: none after cameras and mirrors.
     enum class Partner { none, light_sampling, guided_exit } partner_ = Partner::none;

@@ -23,7 +23,7 @@ bool overlap(const Box3f& a, const Box3f& b) {
 
 VolumePathTracer::VolumePathTracer(const Scene& scene)
     : scene_(scene),
-      lights_(scene.lights, scene.rays.bounds()),
+      lights_(scene.lights, scene.rays.bounds(), true),
       has_null_(std::ranges::any_of(
           scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {
     for (const MediumPtr& medium : scene.media) prepare(*medium);

@@ -36,6 +36,9 @@ class Light {
     /// True for lights met by rays that leave the scene (constant, envmap).
     virtual bool is_infinite() const { return false; }
     virtual bool is_delta() const { return false; }
+    /// True for an infinite light that is the same in all directions: a path that goes on by itself
+    /// samples it as well as can be.
+    virtual bool is_uniform() const { return false; }
     /// Bounds of where light leaves from; empty for lights at infinity (directional included).
     virtual Box3f bounds() const = 0;
     virtual bool is_spectral() const { return false; }

@@ -32,6 +32,7 @@ class ConstantLight final : public Light {
         return 4.f * pi * pi * scene_radius_ * scene_radius_ * luminance(radiance_->rgb());
     }
     bool is_infinite() const override { return true; }
+    bool is_uniform() const override { return true; }
     Box3f bounds() const override { return {}; }
     bool is_spectral() const override { return radiance_->is_spectral(); }
 

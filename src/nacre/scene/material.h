@@ -60,8 +60,9 @@ class Material {
         return Spectral(0.f);
     }
     /// Relative index of refraction inside over outside if the material is a smooth dielectric
-    /// boundary, else 0. The random walk below a surface uses it to guide paths out through the
-    /// boundary.
+    /// boundary
+    /// without dispersion and tint, else 0. The random walk below a surface uses it to guide paths
+    /// out through the boundary.
     virtual float smooth_boundary_eta() const { return 0.f; }
     virtual bool is_spectral() const { return false; }
 };

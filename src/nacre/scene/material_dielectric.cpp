@@ -54,13 +54,19 @@ class Dielectric final : public Material {
         if (s.single_wavelength) s.weight = Spectral(s.weight[0], 0.f, 0.f, 0.f);
         return s;
     }
-    float smooth_boundary_eta() const override { return index_.nominal(); }
+    float smooth_boundary_eta() const override {
+        return index_.is_dispersive() || !is_one(*reflectance_) || !is_one(*transmittance_)
+                   ? 0.f
+                   : index_.nominal();
+    }
     bool is_spectral() const override {
         return index_.is_dispersive() || reflectance_->is_spectral() ||
                transmittance_->is_spectral();
     }
 
   private:
+    static bool is_one(const Texture& t) { return t.max() == 1.f && t.mean() == 1.f; }
+
     RelativeIndex index_;
     TexturePtr reflectance_, transmittance_;
 };
