@@ -21,6 +21,7 @@ constexpr Verb verbs[] = {
     {"check", "check reflectance models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
     {"image", "convert an image between EXR, PFM, HDR and PNG", set_up_image},
+    {"gallery", "render the figures of the classic papers", set_up_gallery},
 };
 
 constexpr const char* exit_codes =

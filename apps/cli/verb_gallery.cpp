@@ -1,0 +1,188 @@
+// nacre gallery: the pictures that answer the figures of the classic papers.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "apps/cli/interrupt.h"
+#include "apps/cli/progress_bar.h"
+#include "apps/cli/verb.h"
+#include "nacre/math/error.h"
+#include "nacre/render/output.h"
+#include "nacre/scene/load.h"
+
+namespace nacre::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::vector<std::string> names;
+    std::string folder, scenes = NACRE_GALLERY;
+    double scale = 1;
+    int spp = 0, threads = 0;
+    bool quiet = false;
+};
+
+/// One picture: a scene, or the scenes of a contact sheet.
+struct Plate {
+    std::string name;
+    std::vector<fs::path> scenes;
+    bool sheet = false;
+};
+
+constexpr int sheet_columns = 6;
+
+std::vector<fs::path> scenes_in(const fs::path& folder, const std::function<bool(char)>& first) {
+    std::vector<fs::path> r;
+    for (const auto& f : fs::directory_iterator(folder))
+        if (f.path().extension() == ".xml" && first(f.path().filename().string()[0]))
+            r.push_back(f.path());
+    std::sort(r.begin(), r.end());
+    return r;
+}
+
+/// Every scene of the folder is a picture; of its subfolders those that number their scenes
+/// (01_name.xml) are contact sheets, the others hold parts.
+std::vector<Plate> find_plates(const fs::path& folder) {
+    if (!fs::is_directory(folder))
+        throw InputError(
+            fmt::format("no gallery at '{}'; give the folder gallery of the source tree: --scenes",
+                        folder.string()));
+    std::vector<Plate> r;
+    for (const fs::path& f : scenes_in(folder, [](char) { return true; }))
+        r.push_back({f.stem().string(), {f}});
+    for (const auto& d : fs::directory_iterator(folder)) {
+        if (!d.is_directory()) continue;
+        auto scenes = scenes_in(d.path(), [](char c) { return c >= '0' && c <= '9'; });
+        if (!scenes.empty()) r.push_back({d.path().filename().string(), std::move(scenes), true});
+    }
+    if (r.empty()) throw InputError(fmt::format("'{}' holds no scenes", folder.string()));
+    std::sort(r.begin(), r.end(), [](auto& a, auto& b) { return a.name < b.name; });
+    return r;
+}
+
+std::vector<Plate> choose(const std::vector<Plate>& all, const std::vector<std::string>& names) {
+    if (names.empty()) return all;
+    std::vector<std::string> known;
+    for (const Plate& p : all) known.push_back(p.name);
+    std::vector<Plate> r;
+    for (const std::string& name : names) {
+        const auto it = std::find(known.begin(), known.end(), name);
+        if (it == known.end())
+            throw InputError(
+                fmt::format("no picture '{}' in the gallery{}", name, suggestion(name, known)));
+        r.push_back(all[static_cast<std::size_t>(it - known.begin())]);
+    }
+    return r;
+}
+
+/// The comment at the head of a scene file, on one line.
+std::string caption(const fs::path& file) {
+    std::ifstream in(file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    constexpr std::string_view open = "<!--", close = "-->";
+    if (!text.starts_with(open)) return {};
+    std::istringstream words(text.substr(open.size(), text.find(close) - open.size()));
+    std::string r, word;
+    while (words >> word) r += (r.empty() ? "" : " ") + word;
+    return r;
+}
+
+Scene load(const fs::path& file, const Options& o) {
+    LoadOptions sized;
+    if (o.scale != 1) {  // the camera depends on the size, so it is read again
+        const FilmSettings film = load_scene(file).film;
+        const auto scaled = [&](int n) {
+            return std::max(1, static_cast<int>(std::lround(n * o.scale)));
+        };
+        sized.width = scaled(film.width);
+        sized.height = scaled(film.height);
+    }
+    Scene scene = load_scene(file, sized);
+    if (o.spp) scene.sampler.samples = o.spp;
+    return scene;
+}
+
+/// Pictures side by side, row by row; rows and columns are as large as their largest picture.
+Image compose(const std::vector<Image>& tiles) {
+    int width = 0, height = 0;
+    for (const Image& t : tiles) {
+        width = std::max(width, t.width);
+        height = std::max(height, t.height);
+    }
+    const int count = static_cast<int>(tiles.size()), columns = std::min(count, sheet_columns);
+    Image sheet(width * columns, height * ((count + columns - 1) / columns));
+    for (int i = 0; i < count; ++i) {
+        const Image& t = tiles[static_cast<std::size_t>(i)];
+        const int left = i % columns * width, top = i / columns * height;
+        for (int y = 0; y < t.height; ++y)
+            for (int x = 0; x < t.width; ++x) {
+                const Vec3f c = t.rgb(x, y);
+                sheet.at(left + x, top + y, 0) = c.x;
+                sheet.at(left + x, top + y, 1) = c.y;
+                sheet.at(left + x, top + y, 2) = c.z;
+            }
+    }
+    return sheet;
+}
+
+/// Empty if Ctrl-C came before the picture was complete.
+std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
+    const Scene scene = load(file, o);
+    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    ProgressBar bar(o.quiet);
+    RenderOptions options;
+    options.threads = o.threads;
+    options.stop = &interrupt_flag();
+    options.progress = [&](const RenderProgress& p) { bar.show(p); };
+    const RenderResult result = render(scene, options);
+    if (!result.complete) return {};
+    return render_image(result, scene,
+                        {invocation.command_line, version, file.filename().string()});
+}
+
+int run(const Options& o, const Invocation& invocation) {
+    if (!(o.scale > 0 && o.scale <= 16))
+        throw InputError(
+            fmt::format("--scale: {} is out of range: must lie within (0, 16]", o.scale));
+    const std::vector<Plate> plates = choose(find_plates(o.scenes), o.names);
+    std::error_code error;
+    fs::create_directories(o.folder, error);
+    for (const Plate& plate : plates) {
+        const fs::path file = fs::path(o.folder) / (plate.name + ".png");
+        check_image_output(file);
+        std::vector<Image> tiles;
+        for (const fs::path& scene : plate.scenes) {
+            std::optional<Image> tile = picture(scene, o, invocation);
+            if (!tile) {
+                fmt::print(stderr, "nacre: interrupted; {} was not written\n", file.string());
+                return interrupted;
+            }
+            tiles.push_back(std::move(*tile));
+        }
+        write_image(plate.sheet ? compose(tiles) : tiles.front(), file);
+        fmt::print("{}\n", file.string());
+        for (const fs::path& scene : plate.scenes) fmt::print("  {}\n", caption(scene));
+        std::fflush(stdout);
+    }
+    return success;
+}
+
+}  // namespace
+
+Action set_up_gallery(CLI::App& app, const Invocation& invocation) {
+    auto o = std::make_shared<Options>();
+    app.add_option("names", o->names, "pictures (default: all)");
+    app.add_option("-o,--output", o->folder, "folder for the pictures")->required();
+    app.add_option("--scale", o->scale, "size of the pictures, times that of the scenes")
+        ->capture_default_str();
+    app.add_option("--spp", o->spp, "samples a pixel, instead of the scenes'")
+        ->check(CLI::Range(1, 1 << 30));
+    app.add_option("--scenes", o->scenes, "folder of the scenes")->capture_default_str();
+    app.add_option("-t,--threads", o->threads, "threads (default: all cores)")
+        ->check(CLI::Range(1, 1 << 16));
+    app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
+    return [o, invocation] { return run(*o, invocation); };
+}
+
+}  // namespace nacre::cli
