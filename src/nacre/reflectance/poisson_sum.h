@@ -1,6 +1,8 @@
 #pragma once
 // Sums over a Poisson distribution, of He-Torrance: the number of rough scatterings that a
 // surface's phase variation g stands for.
+#include <array>
+
 #include "nacre/math/lanes_math.h"
 #include "nacre/reflectance/model.h"
 
