@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 struct Options {
     std::vector<std::string> names;
-    std::string folder, scenes = NACRE_GALLERY;
+    std::string folder, scenes;
     double scale = 1;
     int spp = 0, threads = 0;
     bool quiet = false;
@@ -39,6 +39,15 @@ std::vector<fs::path> scenes_in(const fs::path& folder, const std::function<bool
             r.push_back(f.path());
     std::sort(r.begin(), r.end());
     return r;
+}
+
+/// The scenes that come with the program: beside it where it is installed, else in the source tree.
+fs::path shipped_scenes() {
+    std::error_code none;
+    const fs::path installed =
+        fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() /
+        NACRE_INSTALLED_GALLERY;
+    return fs::is_directory(installed) ? installed : fs::path(NACRE_GALLERY);
 }
 
 /// Every scene of the folder is a picture; of its subfolders those that number their scenes
@@ -145,7 +154,8 @@ int run(const Options& o, const Invocation& invocation) {
     if (!(o.scale > 0 && o.scale <= 16))
         throw InputError(
             fmt::format("--scale: {} is out of range: must lie within (0, 16]", o.scale));
-    const std::vector<Plate> plates = choose(find_plates(o.scenes), o.names);
+    const fs::path scenes = o.scenes.empty() ? shipped_scenes() : fs::path(o.scenes);
+    const std::vector<Plate> plates = choose(find_plates(scenes), o.names);
     std::error_code error;
     fs::create_directories(o.folder, error);
     for (const Plate& plate : plates) {
@@ -178,7 +188,8 @@ Action set_up_gallery(CLI::App& app, const Invocation& invocation) {
         ->capture_default_str();
     app.add_option("--spp", o->spp, "samples a pixel, instead of the scenes'")
         ->check(CLI::Range(1, 1 << 30));
-    app.add_option("--scenes", o->scenes, "folder of the scenes")->capture_default_str();
+    app.add_option("--scenes", o->scenes,
+                   "folder of the scenes (default: those that come with nacre)");
     app.add_option("-t,--threads", o->threads, "threads (default: all cores)")
         ->check(CLI::Range(1, 1 << 16));
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/illumination_page.h"
 #include "apps/cli/model_docs.h"
 #include "apps/cli/model_page.h"
 #include "apps/cli/verb.h"
@@ -63,6 +64,8 @@ int list(bool json) {
     if (json) {
         ordered_json r;
         for (const auto& [kind, names] : named_models()) r[kind] = names;
+        for (const illumination::Description* m : illumination::descriptions())
+            r["illumination"].push_back(illumination_json(*m));
         for (const MeasuredMedium& m : measured_media()) r["medium"].push_back(to_json(m));
         fmt::print("{}\n", r.dump(2));
         return success;
@@ -74,7 +77,11 @@ int list(bool json) {
         for (const std::string& n : names) fmt::print("{}", line_of(n));
         fmt::print("\n");
     }
-    fmt::print("measured media (--material), mm^-1 in red, green, blue\n");
+    fmt::print("illumination models (<integrator type=\"legacy\">), by number\n");
+    for (const illumination::Description* m : illumination::descriptions())
+        fmt::print("  {:>2} {:<22} {} ({}, {})\n", m->number, m->name, m->title, m->authors,
+                   m->year);
+    fmt::print("\nmeasured media (--material), mm^-1 in red, green, blue\n");
     fmt::print("  {:<24} {:<26} {:<26} {}\n", "name", "reduced scattering", "absorption", "index");
     const auto triple = [](const Vec3f& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
     for (const MeasuredMedium& m : measured_media())
@@ -133,6 +140,16 @@ int show(const std::string& name, bool json) {
             show_medium(m);
         return success;
     }
+    // Last, because some share their name with a material: those are asked for by number.
+    for (const illumination::Description* m : illumination::descriptions()) {
+        known.emplace_back(m->name);
+        if (plain_name(m->name) != plain_name(name) && std::to_string(m->number) != name) continue;
+        if (json)
+            fmt::print("{}\n", illumination_json(*m).dump(2));
+        else
+            fmt::print("{}", illumination_page(*m));
+        return success;
+    }
     const std::vector<std::string_view> views(known.begin(), known.end());
     throw InputError(unknown_name("model", name, views));
 }
@@ -148,7 +165,9 @@ Action set_up_models(CLI::App& app, const Invocation& invocation) {
     auto o = std::make_shared<Options>();
     app.add_flag("--json", o->json, "for programs");
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
-    sub->add_option("name", o->name, "a material, medium, phase function or integrator")
+    sub->add_option("name", o->name,
+                    "a material, medium, phase function, integrator, or the name or number of an "
+                    "illumination model")
         ->required();
     sub->add_flag("--json", o->json, "for programs");
     CLI::App* docs = app.add_subcommand("docs", "write the pages of all reflectance models");

@@ -101,6 +101,20 @@ TEST_F(ModelVerbs, PlotsComeWithTheirNumbers) {
     EXPECT_NE(read(folder_ / "p.svg").find("<svg"), std::string::npos);
 }
 
+TEST_F(ModelVerbs, IlluminationModelsAreListedAndShownByNumber) {
+    const json all = json::parse(nacre("models --json").out);
+    ASSERT_EQ(all["illumination"].size(), 23u);
+    EXPECT_EQ(all["illumination"][12]["name"], "phong");
+    EXPECT_NE(nacre("models").out.find("23 hall_transparency "), std::string::npos);
+    const Outcome thirteen = nacre("models show 13");
+    EXPECT_EQ(thirteen.code, 0);
+    EXPECT_EQ(thirteen.out.substr(0, 9), "13 phong:") << thirteen.out;
+    EXPECT_EQ(json::parse(nacre("models show crow-transparency --json").out)["number"], 22);
+    // A name that the reflectance models have too is theirs.
+    EXPECT_NE(nacre("models show phong").out.substr(0, 9), "13 phong:");
+    EXPECT_EQ(nacre("models show 24").code, 2);
+}
+
 TEST_F(ModelVerbs, ShowPrintsTheManualPage) {
     const Outcome r = nacre("models show ward");
     for (const char* part : {"Measuring and Modeling Anisotropic Reflection", "alpha_u", "(0, 10]",

@@ -12,6 +12,8 @@ set(configure ${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${WORK}/bu
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 if(HOW STREQUAL "find_package")
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+    # The program finds the scenes that were installed with it.
+    run(${WORK}/prefix/bin/nacre gallery phong --scale 0.05 --spp 1 --quiet -o ${WORK}/pictures)
     run(${configure} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 else()
     run(${configure} -DNACRE_SOURCE=${SOURCE})

@@ -14,10 +14,8 @@
 //   sigma_0)) S: Smith's self-shadowing for m = 2 sigma_0 / tau (geometric_attenuation.h)
 //
 // F is that of a conductor of index n + i k (relative to air) at half the angle between L and V;
-// G is the paper's ratio of polarisation vectors, which reduces to this. The weights g^j e^-g / j!
-// are a Poisson distribution: the sum runs over where they matter, computed by its deviance (C.
-// Loader 2000, Fast and Accurate Computation of Binomial Probabilities), so that large g neither
-// overflows nor loses digits. For the uniform diffuse part models 3 and 6 are added.
+// G is the paper's ratio of polarisation vectors, which reduces to this. For the uniform diffuse
+// part models 3 and 6 are added.
 //
 // Parameters: sigma0 > 0, standard deviation of heights, and tau > 0, correlation length, both in
 // micrometres; n > 0 and k >= 0, which may vary with wavelength; kss, ksd, 0..1; gamma, 0..90
@@ -29,6 +27,7 @@
 // most gamma. See geometric_attenuation.h for S.
 #include "nacre/illumination/geometric_attenuation.h"
 #include "nacre/optics/fresnel.h"
+#include "nacre/reflectance/poisson_sum.h"
 
 namespace nacre::illumination {
 
@@ -74,46 +73,6 @@ inline constexpr Description he_torrance_description = {
     .properties = "directional diffuse part reciprocal, conserves energy to 2e-4; cone unbounded",
     .errata = "the condition of the cone is printed as <V, R> <= gamma"};
 
-namespace he_detail {
-
-/// log(j!) - ((j + 1/2) log j - j + log(2 pi) / 2), by Stirling's series from 10 on.
-inline double stirling_error(int j) {
-    if (j < 10) {
-        double factorial = 1.;
-        for (int i = 2; i <= j; ++i) factorial *= i;
-        return std::log(factorial) - (j + 0.5) * std::log(j) + j -
-               0.5 * std::log(2. * std::numbers::pi);
-    }
-    const double x = 1. / j, x2 = x * x;
-    return x * (1. / 12 - x2 * (1. / 360 - x2 * (1. / 1260 - x2 * (1. / 1680 - x2 / 1188))));
-}
-
-/// sum_{j>=1} g^j e^-g / (j! j) exp(-q / j) for g, q >= 0. The weights of the j that are left out
-/// are below 1e-20 of the largest.
-template <class P>
-P poisson_sum(P g, P q) {
-    using std::exp, std::log, std::sqrt;
-    double low, high;
-    if constexpr (requires { P::size; })
-        low = min_lane(g), high = max_lane(g);
-    else
-        low = high = double(g);
-    const int first = std::max(1, int(low - 10. * std::sqrt(low)));
-    const int last = int(high + 14. * std::sqrt(high) + 60.);
-    const P mean = at_least(g, 1e-30);
-    P sum(0.f);
-    for (int j = first; j <= last; ++j) {
-        const P ratio = P(j) / mean;
-        const P deviance = mean * (ratio * log(ratio) - (ratio - P(1.f)));
-        const P constant =
-            P(std::exp(-stirling_error(j)) / (j * std::sqrt(2. * std::numbers::pi * j)));
-        sum += constant * exp(-deviance - q / P(j));
-    }
-    return sum;
-}
-
-}  // namespace he_detail
-
 template <class D, class P = D>
 struct HeTorrance {
     static constexpr const Description& description = he_torrance_description;
@@ -143,7 +102,7 @@ struct HeTorrance {
 
         const P width = wave_number * tau, width2 = width * width;
         const P q = width2 * (D(0.25) * (v.x * v.x + v.y * v.y));
-        const P d = width2 * P(1. / 16.) * he_detail::poisson_sum(g, q);
+        const P d = width2 * P(1. / 16.) * poisson_sum(g, q);
         const D ratio = dot(v, v) / vz, facing = D(std::numbers::pi) * at_least(wo.z, 1e-8);
 
         const P specular = kss * exp(-g) * in_cone;
