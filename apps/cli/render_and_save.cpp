@@ -7,6 +7,7 @@
 #include "apps/cli/progress_bar.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
+#include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
 namespace {
@@ -27,25 +28,26 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
         for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));
     mean = mean / (double(r.film.width()) * r.film.height());
     const auto [least, most] = sample_range(r.film);
-    const nlohmann::ordered_json json{
-        {"output", file.string()},
-        {"complete", r.complete},
-        {"width", r.film.width()},
-        {"height", r.film.height()},
-        {"samples", scene.sampler.samples},
-        {"fewest_samples", least},
-        {"most_samples", most},
-        {"seed", scene.sampler.seed},
-        {"mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb"},
-        {"integrator", scene.integrator.type},
-        {"seconds", r.seconds},
-        {"cpu_seconds", r.cpu_seconds},
-        {"precompute_seconds", r.precompute_seconds},
-        {"rays", r.counts.rays},
-        {"scatterings", r.counts.scatterings},
-        {"invalid_samples", r.film.invalid_count()},
-        {"mean", {mean.x, mean.y, mean.z}},
-        {"warnings", scene.warnings}};
+    nlohmann::ordered_json json{{"output", file.string()},
+                                {"complete", r.complete},
+                                {"width", r.film.width()},
+                                {"height", r.film.height()},
+                                {"samples", scene.sampler.samples},
+                                {"fewest_samples", least},
+                                {"most_samples", most},
+                                {"seed", scene.sampler.seed},
+                                {"mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb"},
+                                {"integrator", scene.integrator.type},
+                                {"seconds", r.seconds},
+                                {"cpu_seconds", r.cpu_seconds},
+                                {"precompute_seconds", r.precompute_seconds},
+                                {"precompute_cpu_seconds", r.precompute_cpu_seconds},
+                                {"rays", r.counts.rays},
+                                {"scatterings", r.counts.scatterings},
+                                {"invalid_samples", r.film.invalid_count()},
+                                {"mean", {mean.x, mean.y, mean.z}},
+                                {"warnings", scene.warnings}};
+    for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -61,7 +63,7 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
         o.timeout_s = options.timeout_s;
         o.stop = &stop;
         o.progress = [&](const RenderProgress& p) { bar.show(p); };
-        return render(scene, o);
+        return render(scene, make_technique_integrator, o);
     }();
 
     const std::string invalid = describe_invalid(result.film);
@@ -86,7 +88,7 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
         fmt::print(stderr, "nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n",
                    file.string(), result.film.width(), result.film.height(),
                    format_seconds(result.seconds + result.precompute_seconds),
-                   format_seconds(result.cpu_seconds),
+                   format_seconds(result.cpu_seconds + result.precompute_cpu_seconds),
                    static_cast<double>(result.counts.rays) / 1e6);
     if (options.json) print_json(result, scene, file);
     return stopped ? interrupted : success;

@@ -6,13 +6,14 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/image.h"
 #include "nacre/scene/load.h"
+#include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
 namespace {
 
 struct Options {
-    std::string scene, output, size, crop, integrator, mode, material;
-    std::vector<std::string> defines;
+    std::string scene, output, size, crop, integrator, mode, material, technique, profile;
+    std::vector<std::string> defines, set;
     int threads = 0, spp = 0;
     std::uint64_t seed = 0;
     double timeout = 0, height_mm = 0;
@@ -52,6 +53,29 @@ void set_crop(FilmSettings& film, const std::string& text) {
         throw InputError(
             fmt::format("--crop: '{}' is not a window; write x,y,width,height in pixels", text));
     film.crop_x = x, film.crop_y = y, film.crop_width = w, film.crop_height = h;
+}
+
+/// --technique, --profile and --set.
+void set_technique(Scene& scene, const Options& o, const CLI::App& app) {
+    if (o.technique.empty()) {
+        for (const char* option : {"--profile", "--set"})
+            if (app.count(option))
+                throw InputError(
+                    fmt::format("{} belongs to --technique, which is missing", option));
+        return;
+    }
+    if (!o.integrator.empty())
+        throw InputError("give either --technique or --integrator: the one chooses the other");
+    SubsurfaceSettings settings;
+    settings.technique = o.technique;
+    if (!o.profile.empty()) settings.profile = o.profile;
+    for (const std::string& text : o.set) {
+        const std::size_t equals = text.find('=');
+        if (equals == 0 || equals == text.npos)
+            throw InputError(fmt::format("--set: '{}' is not of the form name=value", text));
+        set_option(settings, text.substr(0, equals), text.substr(equals + 1));
+    }
+    choose_technique(scene, settings);
 }
 
 Scene load(const Options& o, const CLI::App& app) {
@@ -109,6 +133,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     if (o.spp) scene.sampler.samples = o.spp;
     if (app.count("--seed")) scene.sampler.seed = o.seed;
     if (!o.integrator.empty()) scene.integrator.type = o.integrator;
+    set_technique(scene, o, app);
     if (o.no_distance_grid) scene.integrator.distance_grid = false;
     if (o.no_guided_exits) scene.integrator.guided_exits = false;
     if (o.variance) scene.integrator.moment = true;
@@ -139,6 +164,12 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
     app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is");
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
+    app.add_option("--technique", o->technique,
+                   "how translucent shapes are rendered: brdf, surface, two_pass, volpath");
+    app.add_option("--profile", o->profile,
+                   "diffusion profile of the technique (dipole); see 'nacre models'");
+    app.add_option("--set", o->set, "name=value: an option of the technique")
+        ->allow_extra_args(false);
     app.add_option("--mode", o->mode, "rgb or spectral (default: what the scene needs)");
     app.add_option("--exposure", o->exposure, "stops, for .png");
     app.add_option("--material", o->material,

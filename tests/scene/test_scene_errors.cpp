@@ -193,9 +193,48 @@ const Wrong objects[] = {
      "scene.xml:3:1: a second light at infinity; the first is at scene.xml:2:1"},
     {"FilmInShape", R"(<shape type="sphere"><film type="hdrfilm"/></shape>)",
      "scene.xml:2:22: <shape type=\"sphere\"> cannot hold <film type=\"hdrfilm\">"},
-    {"Subsurface", R"(<shape type="sphere"><subsurface type="dipole"/></shape>)",
-     "scene.xml:2:22: <subsurface> is not supported; give the shape a <medium name=\"interior\"> "
-     "and a dielectric boundary"},
+    {"SubsurfaceOfNothing", R"(<shape type="sphere"><subsurface type="dipole"/></shape>)",
+     "scene.xml:2:22: say what the object is made of: 'material', or 'sigma_s' and 'sigma_a'"},
+    {"SubsurfaceTwice",
+     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/></subsurface>
+<subsurface type="dipole"><string name="material" value="marble"/></subsurface></shape>)",
+     "scene.xml:3:1: a second <subsurface> in <shape type=\"sphere\">; the first is at "
+     "scene.xml:2:22"},
+    {"SubsurfaceAndMedium",
+     R"(<shape type="sphere"><medium name="interior" type="homogeneous"/>
+<subsurface type="dipole"><string name="material" value="marble"/></subsurface></shape>)",
+     "scene.xml:3:1: a shape has either a <subsurface> or a medium inside, not both"},
+    {"SubsurfaceNegative",
+     R"(<shape type="sphere"><subsurface type="dipole"><float name="sigma_s" value="1"/>
+<float name="sigma_a" value="-1"/></subsurface></shape>)",
+     "scene.xml:3:1: 'sigma_a' must be finite and at least 0, but has the value -1"},
+    {"SubsurfaceAlbedo",
+     R"(<shape type="sphere"><subsurface type="dipole"><float name="sigma_t" value="1"/>
+<float name="albedo" value="1.5"/></subsurface></shape>)",
+     "scene.xml:3:1: 'albedo' must lie within [0, 1], but has the value 1.5"},
+    {"SubsurfaceOption",
+     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
+<float name="spacing" value="0"/></subsurface></shape>)",
+     "scene.xml:3:1: option 'spacing' = 0 must be a number within [0.01, 100]"},
+    {"SubsurfaceWord",
+     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
+<string name="points" value="repulsive"/></subsurface></shape>)",
+     "scene.xml:3:1: option 'points' has no value 'repulsive'; did you mean 'repulsion'?"},
+    {"SubsurfaceMisspelt",
+     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
+<float name="spaceing" value="1"/></subsurface></shape>)",
+     "scene.xml:3:1: <subsurface type=\"dipole\"> has no parameter 'spaceing'; did you mean "
+     "'spacing'?"},
+    {"SubsurfaceBoundary",
+     R"(<shape type="sphere"><bsdf type="diffuse"/>
+<subsurface type="dipole"><string name="material" value="marble"/></subsurface></shape>)",
+     "scene.xml:3:1: the shape's <bsdf> must be a smooth dielectric, or be left out"},
+    {"SubsurfaceIndex",
+     R"(<shape type="sphere"><bsdf type="dielectric"/><subsurface type="dipole">
+<string name="material" value="marble"/><float name="int_ior" value="1.3"/></subsurface></shape>)",
+     "scene.xml:3:41: the shape's own <bsdf> says what its indices are; leave 'int_ior' out"},
+    {"FigureUnknown", R"(<shape type="figure"><string name="name" value="teapot"/></shape>)",
+     "scene.xml:2:22: 'name' of <shape type=\"figure\"> cannot be 'teapot'; known are: bust, pot"},
     {"MaterialUnknown", R"(<bsdf type="difuse"/>)",
      "scene.xml:2:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
     {"ReflectanceAboveOne", R"(<bsdf type="diffuse"><rgb name="reflectance" value="2"/></bsdf>)",

@@ -44,12 +44,16 @@ float figure_distance(const Point3f& p) {
 
 Box3f figure_box() { return {{-150, -6, -190}, {150, 450, 130}}; }
 
-Mesh make_figure(float resolution_mm) {
+Mesh make_figure(float resolution_mm, std::string_view name) {
     if (!(resolution_mm >= 0.2f && resolution_mm <= 8.f))
         throw InputError(fmt::format(
             "figure: a resolution of {:.4g} mm is not possible; give 0.2 to 8 mm", resolution_mm));
+    if (name != "bust" && name != "pot")
+        throw InputError(fmt::format("figure: there is no '{}'; known are: bust, pot", name));
+    const bool bust = name == "bust";
     // The steepest places, locks and pleats, stay below a slope of 1.5.
-    Mesh mesh = surface_nets(figure_distance, {figure_box(), resolution_mm, 1.5f});
+    Mesh mesh = surface_nets(bust ? figure_distance : pot_distance,
+                             {bust ? figure_box() : pot_box(), resolution_mm, 1.5f});
     mesh.name = "figure";
     return mesh;
 }

@@ -1,6 +1,8 @@
 #pragma once
-// The built-in sculpture: a bust with thin, upright ears and a pleated collar, modelled for light
-// that passes through it.
+// The built-in sculptures, modelled for light that passes through them: a bust with thin, upright
+// ears and a pleated collar, and a pot for tea, hollow, with walls of 5 mm.
+#include <string_view>
+
 #include "nacre/geometry/mesh.h"
 
 namespace nacre {
@@ -13,9 +15,13 @@ float figure_distance(const Point3f& p);
 /// The box that holds the sculpture, with a margin.
 Box3f figure_box();
 
-/// The sculpture as a closed, manifold mesh with smooth normals, in mm. `resolution_mm` is the side
-/// of a lattice cell: 1.6 gives about 390,000 triangles.
-/// @throws InputError unless 0.2 <= resolution_mm <= 8.
-Mesh make_figure(float resolution_mm = 1.6f);
+/// The same of the pot: its spout along +x, its handle along -x, 140 mm tall.
+float pot_distance(const Point3f& p);
+Box3f pot_box();
+
+/// The sculpture "bust" or "pot" as a closed, manifold mesh with smooth normals, in mm.
+/// `resolution_mm` is the side of a lattice cell: 1.6 gives about 390,000 triangles for the bust.
+/// @throws InputError for other names, and unless 0.2 <= resolution_mm <= 8.
+Mesh make_figure(float resolution_mm = 1.6f, std::string_view name = "bust");
 
 }  // namespace nacre

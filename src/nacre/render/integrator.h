@@ -22,6 +22,14 @@ struct RayCounts {
     }
 };
 
+/// What precomputation took and made: "two_pass points", 121787, "".
+struct Statistic {
+    std::string name;
+    double value = 0.;
+    std::string unit;
+};
+using Statistics = std::vector<Statistic>;
+
 class Integrator {
   public:
     virtual ~Integrator() = default;
@@ -29,6 +37,7 @@ class Integrator {
     /// nothing: the film divides by the wavelengths' density.
     virtual Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
                               RayCounts& counts) const = 0;
+    virtual Statistics statistics() const { return {}; }
 };
 
 /// The integrator named by scene.integrator. `scene` outlives it. Precomputation (distance grid)

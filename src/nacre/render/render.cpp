@@ -219,15 +219,23 @@ RenderResult render(const Scene& scene, const Integrator& integrator,
                         [&] { return RenderJob(scene, integrator, options).run(); });
 }
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
+RenderResult render(const Scene& scene, MakeIntegrator make, const RenderOptions& options) {
     return with_threads(options.threads, [&] {
         const Clock::time_point start = Clock::now();
-        const std::unique_ptr<Integrator> integrator = make_integrator(scene);
+        const double cpu_start = process_cpu_seconds();
+        const std::unique_ptr<Integrator> integrator = make(scene);
         const double precompute = seconds_since(start);
+        const double precompute_cpu = process_cpu_seconds() - cpu_start;
         RenderResult result = RenderJob(scene, *integrator, options).run();
         result.precompute_seconds = precompute;
+        result.precompute_cpu_seconds = precompute_cpu;
+        result.statistics = integrator->statistics();
         return result;
     });
+}
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+    return render(scene, make_integrator, options);
 }
 
 }  // namespace nacre

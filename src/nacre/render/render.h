@@ -26,8 +26,9 @@ struct RenderResult {
     bool complete = true;  ///< false: stopped or timed out; the film holds what there is
     double seconds = 0;    ///< wall time of the render without precomputation
     double cpu_seconds = 0;
-    double precompute_seconds = 0;
+    double precompute_seconds = 0, precompute_cpu_seconds = 0;
     RayCounts counts;
+    Statistics statistics = {};  ///< of the integrator
 };
 
 /// Renders the scene. The same scene and seed give the same bits for any number of threads, and a
@@ -40,6 +41,9 @@ struct RenderResult {
 /// around a lamp is the lux from that lamp. Throws InputError if illuminance is asked of a camera
 /// whose rays are parallel.
 RenderResult render(const Scene& scene, const RenderOptions& options = {});
+/// The same with an integrator that `make` makes; what that takes is precomputation.
+using MakeIntegrator = std::unique_ptr<Integrator> (*)(const Scene& scene);
+RenderResult render(const Scene& scene, MakeIntegrator make, const RenderOptions& options = {});
 /// The same with a given integrator in place of the one that the scene names.
 RenderResult render(const Scene& scene, const Integrator& integrator,
                     const RenderOptions& options = {});

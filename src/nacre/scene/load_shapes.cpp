@@ -1,6 +1,7 @@
 // Shapes of a scene file, with their material, media and light.
 #include <fmt/format.h>
 
+#include "nacre/geometry/figure.h"
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
@@ -67,6 +68,17 @@ std::uint32_t add_cube(const SceneNode& node, RayScene& rays, BuildContext&) {
     return add_built(node, make_cube(), rays);
 }
 
+/// <shape type="figure">: the built-in sculptures (geometry/figure.h), in mm as they stand.
+std::uint32_t add_figure(const SceneNode& node, RayScene& rays, BuildContext& context) {
+    const auto in_memory = context.meshes.find(&node);
+    if (in_memory != context.meshes.end()) return add_mesh(node, in_memory->second, rays);
+    const std::string name = node.get_choice("name", {"bust", "pot"});
+    const double resolution = node.get_float_in("resolution", 1.6, 0.2, 8.);
+    Mesh mesh = make_figure(static_cast<float>(resolution), name);
+    apply(node.get_transform("to_world"), mesh);
+    return add_mesh(node, std::make_shared<Mesh>(std::move(mesh)), rays);
+}
+
 double get_radius(const SceneNode& node) {
     const double radius = node.get_float("radius", 1.0);
     if (!(radius > 0.0))
@@ -118,7 +130,7 @@ constexpr std::pair<std::string_view, AddGeometry> shape_types[] = {
     {"obj", add_mesh_file}, {"ply", add_mesh_file},       {"off", add_mesh_file},
     {"stl", add_mesh_file}, {"gltf", add_mesh_file},      {"serialized", add_mesh_file},
     {"sphere", add_sphere}, {"rectangle", add_rectangle}, {"cube", add_cube},
-    {"disk", add_disk},     {"cylinder", add_cylinder},
+    {"disk", add_disk},     {"cylinder", add_cylinder},   {"figure", add_figure},
 };
 
 AddGeometry geometry_of(const SceneNode& node) {
@@ -179,12 +191,6 @@ void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const
 void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
                std::vector<PendingAreaLight>& lights) {
     const AddGeometry add_geometry = geometry_of(node);
-    if (const auto subsurface = node.children_of("subsurface"); !subsurface.empty())
-        throw InputError(
-            fmt::format("{}: <subsurface> is not supported; give the shape a "
-                        "<medium name=\"interior\"> and a dielectric boundary",
-                        subsurface[0]->location.str()));
-
     ShapeBinding shape;
     shape.name = name_of(node);
     const SceneNode* emitter = only_child(node, "emitter");
@@ -199,6 +205,8 @@ void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
     if (const SceneNode::Child* medium = node.child("exterior", "medium"))
         shape.exterior = add_medium(*medium->node, scene, context);
     shape.separates_media = shape.interior || shape.exterior;
+    if (const SceneNode* subsurface = only_child(node, "subsurface"))
+        read_subsurface(*subsurface, shape, bsdf != nullptr, scene, context);
     for (const SceneNode::Child& c : node.children)
         if (c.node->tag == "medium" && c.name != "interior" && c.name != "exterior")
             throw InputError(

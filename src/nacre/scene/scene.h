@@ -12,6 +12,8 @@
 
 namespace nacre {
 
+struct SubsurfaceSettings;
+
 /// What is attached to shape i of the ray scene.
 struct ShapeBinding {
     std::string name;                  ///< id or file name, for messages
@@ -19,6 +21,8 @@ struct ShapeBinding {
     const Light* light = nullptr;      ///< area light on it
     const Medium* interior = nullptr;  ///< medium below the surface; null is vacuum
     const Medium* exterior = nullptr;
+    /// How `path` approximates the medium below (scene/subsurface.h); null: not at all.
+    std::shared_ptr<const SubsurfaceSettings> subsurface;
     bool separates_media =
         false;  ///< interior or exterior was given: crossing the shape changes the medium
 };

@@ -24,6 +24,17 @@ struct PendingAreaLight {
 void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
                std::vector<PendingAreaLight>& lights);
 
+/// Reads <subsurface type="dipole">: gives the shape a medium inside, a smooth boundary if it has
+/// none of its own, and the settings.
+///
+///   material | sigma_s, sigma_a | sigma_t, albedo | surface_color, radius; scale; <phase>
+///                     the matter, as in <medium type="homogeneous">
+///   int_ior, ext_ior  indices of refraction (of the named material, else bk7; air)
+///   method            the technique (two_pass)
+///   and the options above
+void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_material, Scene& scene,
+                     BuildContext& context);
+
 /// Builds everything. `mode` unset: RGB bands unless something in the scene is spectral.
 Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<ColorMode> mode);
 

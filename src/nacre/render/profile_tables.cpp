@@ -1,0 +1,61 @@
+#include "nacre/render/profile_tables.h"
+
+namespace nacre {
+
+std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, const Bands& bands) {
+    std::vector<ProfileMedium> result;
+    for (int g = 0; g < bands.groups(); ++g) {
+        const MediumCoefficients c = medium.coefficients({}, bands.group(g));
+        for (int i = 0; i < 4 && int(result.size()) < bands.count(); ++i)
+            result.push_back({.sigma_s = c.sigma_s[i],
+                              .sigma_a = std::max(0.f, c.sigma_t[i] - c.sigma_s[i]),
+                              .g = medium.phase.mean_cosine(),
+                              .eta = eta});
+    }
+    return result;
+}
+
+ProfileTables::ProfileTables(const Medium& medium, float eta, std::string_view profile,
+                             const Bands& bands)
+    : bands_(bands) {
+    const std::vector<ProfileMedium> media = medium_in_bands(medium, eta, bands);
+    for (std::size_t first = 0; first < media.size(); first += 4) {
+        std::vector<std::unique_ptr<RadialProfile>> profiles;
+        std::vector<const RadialProfile*> pointers;
+        for (std::size_t i = first; i < std::min(first + 4, media.size()); ++i) {
+            profiles.push_back(make_profile(profile, media[i]));
+            pointers.push_back(profiles.back().get());
+            totals_.push_back(float(profiles.back()->total()));
+            includes_single_scattering_ = profiles.back()->includes_single_scattering();
+        }
+        groups_.emplace_back(pointers);
+    }
+}
+
+Spectral ProfileTables::eval(float r2, const Wavelengths& w) const {
+    if (bands_.mode() == ColorMode::rgb_bands) return groups_[0].eval(r2);
+    float values[24];
+    for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].eval(r2).store(values + 4 * g);
+    return bands_.at(values, w);
+}
+
+Spectral ProfileTables::total(const Wavelengths& w) const { return bands_.at(totals_.data(), w); }
+
+float ProfileTables::sample(float u1, float u2, const Wavelengths& w) const {
+    int lane = 0;
+    while (lane < 3 && u1 >= w.weight[lane]) u1 -= w.weight[lane++];
+    const int band = bands_.nearest(lane, w);
+    return groups_[std::size_t(band / 4)].sample(u2, band % 4);
+}
+
+float ProfileTables::pdf(float r2, const Wavelengths& w) const {
+    if (bands_.mode() == ColorMode::rgb_bands) return sum(groups_[0].pdf(r2) * w.weight);
+    float p = 0.f;
+    for (int i = 0; i < 4; ++i) {
+        const int band = bands_.nearest(i, w);
+        p += w.weight[i] * groups_[std::size_t(band / 4)].pdf(r2)[band % 4];
+    }
+    return p;
+}
+
+}  // namespace nacre

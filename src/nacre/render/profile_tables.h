@@ -1,0 +1,34 @@
+#pragma once
+// A diffusion profile of a scene's medium, tabulated for rendering.
+#include "nacre/bssrdf/radial_table.h"
+#include "nacre/scene/medium.h"
+#include "nacre/spectrum/bands.h"
+
+namespace nacre {
+
+/// The coefficients of a homogeneous medium in each band, per scene unit, as profiles take them.
+std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, const Bands& bands);
+
+/// R(r) of the medium in every band. Lengths are scene units.
+class ProfileTables {
+  public:
+    /// Throws InputError as make_profile.
+    ProfileTables(const Medium& medium, float eta, std::string_view profile, const Bands& bands);
+
+    /// R at squared distance r2 in the lanes of a path.
+    Spectral eval(float r2, const Wavelengths& w) const;
+    /// Over the plane.
+    Spectral total(const Wavelengths& w) const;
+    /// A radius, after one of the lanes (`u1` chooses); and the density per area of such radii.
+    float sample(float u1, float u2, const Wavelengths& w) const;
+    float pdf(float r2, const Wavelengths& w) const;
+    bool includes_single_scattering() const { return includes_single_scattering_; }
+
+  private:
+    Bands bands_;
+    std::vector<SpectralRadialTable> groups_;
+    std::vector<float> totals_;
+    bool includes_single_scattering_ = false;
+};
+
+}  // namespace nacre

@@ -1,0 +1,28 @@
+#pragma once
+// Light that is scattered exactly once below a smooth boundary, by shadow rays: Jensen et al. 2001,
+// section 2.3 (bssrdf/single_scattering.h has the formulas).
+#include "nacre/render/integrator.h"
+#include "nacre/render/light_chooser.h"
+
+namespace nacre {
+
+class SingleScatteringTerm {
+  public:
+    /// `scene` outlives it; `shape` is the translucent shape.
+    SingleScatteringTerm(const Scene& scene, std::uint32_t shape, float eta);
+
+    /// One-sample estimate of the radiance that emerges at `exit` towards `wo` (local, z > 0), over
+    /// the boundary's transmittance there. The light's way in is refracted as at a flat surface.
+    Spectral radiance(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
+                      const Wavelengths& wavelengths, RayCounts& counts) const;
+
+  private:
+    const Scene& scene_;
+    const Medium& medium_;
+    std::uint32_t shape_;
+    float eta_;
+    LightChooser lights_;
+    bool has_null_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,153 @@
+#include "nacre/render/surface_path.h"
+
+#include <algorithm>
+
+#include "nacre/render/roulette.h"
+
+namespace nacre {
+
+Spectral SurfacePath::trace(const Ray& ray) {
+    ray_ = ray;
+    from_ = ray.o;
+    follow();
+    return result_;
+}
+
+Spectral SurfacePath::trace_from(const SurfacePoint& at, const Material& material,
+                                 const Vec3f& wo) {
+    if (within_depth(0) && scatter(at, material, wo)) follow();
+    return result_;
+}
+
+void SurfacePath::follow() {
+    while (within_depth(0)) {
+        ++counts_.rays;
+        const auto hit = scene_.rays.intersect(ray_);
+        const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.environment;
+        SurfacePoint at;
+        if (hit) at = scene_.rays.surface_point(ray_, *hit);
+        if (light && !(depth_ == 0 && scene_.integrator.hide_emitters))
+            add_emission(*light, hit ? &at : nullptr);
+        if (!hit) return;
+        if (faint_ && depth_ > 0) {
+            // What a reflection split off shows by itself has been seen; the rest of it is worth
+            // its share of the work only, and a little more.
+            faint_ = false;
+            const float chance = std::min(1.f, 4.f * max_lane(throughput_));
+            if (!(sampler_.next1d() < chance)) return;
+            throughput_ *= Spectral(1.f / chance);
+        }
+        if (!at_surface(at)) return;
+    }
+}
+
+bool SurfacePath::at_surface(const SurfacePoint& at) {
+    const Vec3f wo = at.shading.to_local(-ray_.d);
+    if (!tracer_.below_.empty() && wo.z > 0.f)
+        if (const Translucency* below = tracer_.below_[at.shape].get())
+            return at_translucent(at, *below, wo);
+    return scatter(at, *scene_.shapes[at.shape].material, wo);
+}
+
+bool SurfacePath::at_translucent(const SurfacePoint& at, const Translucency& below,
+                                 const Vec3f& wo) {
+    const float reflected = below.eta() == 1.f ? 0.f : fresnel_dielectric(wo.z, below.eta());
+    if (depth_ == 0 && reflected > 0.f) {
+        // What the camera sees is followed both ways: a mirror image of a lamp that one path in
+        // twenty finds is noise.
+        SurfacePath mirror(*this);
+        mirror.result_ = Spectral(0.f);
+        mirror.throughput_ *= Spectral(reflected);
+        mirror.faint_ = true;
+        if (mirror.reflect(at, wo)) mirror.follow();
+        result_ += mirror.result_;
+        throughput_ *= Spectral(1.f - reflected);
+    } else if (sampler_.next1d() < reflected) {
+        return reflect(at, wo);
+    }
+    const Translucency::Emergence e = below.emerge(at, wo, sampler_, wavelengths_, counts_);
+    result_ += throughput_ * e.radiance;
+    if (!e.entry || !(max_lane(e.weight) > 0.f)) return false;
+    throughput_ *= e.weight;
+    return scatter(*e.entry, below.entry(), {0.f, 0.f, 1.f});
+}
+
+bool SurfacePath::reflect(const SurfacePoint& at, const Vec3f& wo) {
+    leave(at, at.shading.to_world({-wo.x, -wo.y, wo.z}));
+    certain_ = true;
+    pdf_ = 0.f;
+    return goes_on();
+}
+
+bool SurfacePath::scatter(const SurfacePoint& at, const Material& material, const Vec3f& wo) {
+    if ((material.flags() & has_smooth) &&
+        tracer_.estimators_ != PathTracer::Estimators::material_only && within_depth(1))
+        result_ += throughput_ * direct_light(at, material, wo);
+
+    const float u1 = sampler_.next1d();
+    const auto sample = material.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
+    if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
+    if (tracer_.recursive_only_ && !sample->delta) return false;
+    throughput_ *= sample->weight;
+    if (sample->single_wavelength && !single_wavelength_) {
+        // The other lanes would have gone elsewhere: the first goes on for all of them.
+        single_wavelength_ = true;
+        throughput_ *= Spectral(1.f / wavelengths_.weight[0], 0.f, 0.f, 0.f);
+    }
+    eta_ *= sample->eta;
+    leave(at, at.shading.to_world(sample->wi));
+    // A surface that light passes as if it were not there makes no difference to either.
+    if (sample->null) return true;
+    certain_ = sample->delta;
+    pdf_ = sample->pdf;
+    from_ = at.p;
+    return goes_on();
+}
+
+bool SurfacePath::goes_on() {
+    if (depth_ >= tracer_.rr_depth_ &&
+        !survives(throughput_, eta_, sampler_.next1d(), throughput_))
+        return false;
+    ++depth_;
+    return true;
+}
+
+void SurfacePath::leave(const SurfacePoint& at, const Vec3f& direction) {
+    ray_ = {at.spawn(direction), direction};
+}
+
+void SurfacePath::add_emission(const Light& light, const SurfacePoint* on_light) {
+    using Estimators = PathTracer::Estimators;
+    const bool found_by_chance =
+        certain_ || (!tracer_.recursive_only_ && tracer_.estimators_ != Estimators::light_only);
+    if (!found_by_chance) return;
+    const Spectral emitted = light.radiance(on_light, ray_.d, wavelengths_);
+    if (!(max_lane(emitted) > 0.f)) return;
+    const bool alone = certain_ || tracer_.estimators_ == Estimators::material_only;
+    const float light_pdf =
+        alone ? 0.f
+              : tracer_.lights_.probability(from_, &light) * light.pdf(from_, ray_.d, on_light);
+    result_ += throughput_ * emitted * Spectral(alone ? 1.f : pdf_ / (pdf_ + light_pdf));
+}
+
+Spectral SurfacePath::direct_light(const SurfacePoint& at, const Material& material,
+                                   const Vec3f& wo) {
+    const LightChooser::Choice choice = tracer_.lights_.choose(at.p, sampler_.next1d());
+    const Vec2f u = sampler_.next2d();
+    if (!choice.light) return Spectral(0.f);
+    const LightSample light = choice.light->sample(at.p, u, wavelengths_);
+    if (!(light.pdf > 0.f) || !(max_lane(light.radiance) > 0.f)) return Spectral(0.f);
+    const Vec3f wi = at.shading.to_local(light.wi);
+    const Spectral f = material.eval(at, wo, wi, wavelengths_);
+    if (!(max_lane(f) > 0.f)) return Spectral(0.f);
+    const float light_pdf = light.pdf * choice.probability;
+    // Recursive ray tracing never finds a light by chance, so its light samples count in full.
+    const bool alone = light.delta || tracer_.recursive_only_ ||
+                       tracer_.estimators_ == PathTracer::Estimators::light_only;
+    const float material_pdf = alone ? 0.f : material.pdf(at, wo, wi, wavelengths_);
+    const Spectral kept = surface_transmittance(scene_, tracer_.has_null_, at.spawn(light.wi),
+                                                light.wi, light.distance, wavelengths_, counts_);
+    return f * light.radiance * kept / Spectral(light_pdf + material_pdf);
+}
+
+}  // namespace nacre

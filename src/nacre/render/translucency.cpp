@@ -1,0 +1,26 @@
+#include "nacre/render/translucency.h"
+
+#include "nacre/math/sampling.h"
+
+namespace nacre {
+
+Spectral Entry::eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
+    return Spectral(
+        wi.z > 0.f ? (1.f - fresnel_dielectric(wi.z, eta_)) * cosine_hemisphere_pdf(wi.z) : 0.f);
+}
+
+float Entry::pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
+    return cosine_hemisphere_pdf(wi.z);
+}
+
+std::optional<MaterialSample> Entry::sample(const SurfacePoint&, const Vec3f&, float, Vec2f u2,
+                                            const Wavelengths&) const {
+    MaterialSample s;
+    s.wi = square_to_cosine_hemisphere(u2);
+    s.pdf = cosine_hemisphere_pdf(s.wi.z);
+    if (!(s.pdf > 0.f)) return std::nullopt;
+    s.weight = Spectral(1.f - fresnel_dielectric(s.wi.z, eta_));
+    return s;
+}
+
+}  // namespace nacre

@@ -1,0 +1,65 @@
+#pragma once
+// What a path tracer must know of matter below a surface that it does not simulate: given where
+// light leaves, where it came in.
+//
+// Light that falls on the boundary at x_i enters with the Fresnel transmittance T(w_i), wanders,
+// and leaves at x_o. Approximations separate the three (Jensen et al. 2001, eq. 5):
+//     L_o(x_o, w_o) = T(w_o) / n  1/pi  int R(x_o, x_i) int T(w_i) L(x_i, w_i) cos dw_i dA(x_i)
+// T(w_o) is the path tracer's choice between reflection and what comes from below; everything else,
+// n included (the mean transmittance, or 1 in the original paper), is the approximation's.
+#include <memory>
+#include <optional>
+
+#include "nacre/optics/fresnel.h"
+#include "nacre/render/integrator.h"
+
+namespace nacre {
+
+/// Where light enters a translucent object: a diffuse "reflector" of albedo 1 whose light passes
+/// the boundary, T(w_i) / pi. A path that goes on from an entry point goes on from this material.
+class Entry final : public Material {
+  public:
+    /// `eta`: index inside over outside; 1 if there is no boundary.
+    explicit Entry(float eta) : eta_(eta) {}
+
+    unsigned flags() const override { return reflects | has_smooth; }
+    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
+                  const Wavelengths&) const override;
+    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
+              const Wavelengths&) const override;
+    std::optional<MaterialSample> sample(const SurfacePoint&, const Vec3f&, float, Vec2f u2,
+                                         const Wavelengths&) const override;
+
+  private:
+    float eta_;
+};
+
+/// One shape's matter. Immutable once built; `emerge` is called by many threads.
+class Translucency {
+  public:
+    explicit Translucency(float eta) : eta_(eta), entry_(eta) {}
+    virtual ~Translucency() = default;
+
+    struct Emergence {
+        Spectral radiance{0.f};             ///< that is known already
+        std::optional<SurfacePoint> entry;  ///< a place where the rest came in
+        Spectral weight{0.f};               ///< of what `Entry` there sends on
+    };
+    /// One-sample estimate of the radiance that emerges at `exit` towards `wo` (local, z > 0), over
+    /// the boundary's transmittance in that direction.
+    virtual Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
+                             const Wavelengths& wavelengths, RayCounts& counts) const = 0;
+
+    float eta() const { return eta_; }
+    const Entry& entry() const { return entry_; }
+
+  private:
+    float eta_;
+    Entry entry_;
+};
+using TranslucencyPtr = std::shared_ptr<const Translucency>;
+
+/// One for each shape of a scene; null where nothing is approximated.
+using Translucencies = std::vector<TranslucencyPtr>;
+
+}  // namespace nacre

@@ -1,0 +1,171 @@
+#include "nacre/subsurface/technique.h"
+
+#include <fmt/format.h>
+
+#include "nacre/bssrdf/exit_fresnel.h"
+#include "nacre/math/error.h"
+#include "nacre/optics/names.h"
+#include "nacre/render/path_tracer.h"
+#include "nacre/render/surface_sampling.h"
+
+namespace nacre {
+namespace {
+
+constexpr TechniqueDescription catalogue[] = {
+    {.name = "volpath",
+     .title = "complete simulation",
+     .authors = "J. T. Kajiya, B. P. Von Herzen",
+     .year = 1984,
+     .paper = "Ray Tracing Volume Densities, SIGGRAPH 84",
+     .how = "paths through the medium, without approximation: the reference",
+     .precomputes = "distance grid and exit guide",
+     .may_change = "view, light, material"},
+    {.name = "brdf",
+     .title = "local reflection",
+     .authors = "J. H. Lambert",
+     .year = 1760,
+     .paper = "Photometria; with the total of a diffusion profile as albedo",
+     .how = "all light leaves where it came in, through the same boundary",
+     .precomputes = "",
+     .may_change = "view, light, material, geometry",
+     .profiles = "all",
+     .make = make_local_reflection},
+    {.name = "surface",
+     .title = "BSSRDF by surface sampling",
+     .authors = "H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan; A. King, C. Kulla, A. Conty, "
+                "M. Fajardo",
+     .year = 2001,
+     .paper = "A Practical Model for Subsurface Light Transport, SIGGRAPH 2001; BSSRDF Importance "
+              "Sampling, SIGGRAPH Talks 2013",
+     .how = "for each exit one point of entry around it, drawn by probe rays after the profile",
+     .precomputes = "tables of the profile",
+     .may_change = "view, light, geometry",
+     .profiles = "all",
+     .make = make_surface_sampling},
+    {.name = "two_pass",
+     .title = "two-pass hierarchy",
+     .authors = "H. W. Jensen, J. Buhler",
+     .year = 2002,
+     .paper = "A Rapid Hierarchical Rendering Technique for Translucent Materials, SIGGRAPH 2002",
+     .how = "irradiance at points spread over the surface, then for each exit a sum over the "
+            "points, far ones in groups",
+     .precomputes = "surface points, irradiance, hierarchy",
+     .may_change = "view",
+     .profiles = "dipole, better_dipole",
+     .make = make_two_pass},
+};
+
+constexpr auto names = [] {
+    std::array<std::string_view, std::size(catalogue)> n;
+    for (std::size_t i = 0; i < n.size(); ++i) n[i] = catalogue[i].name;
+    return n;
+}();
+
+/// Calls `f` so that what it refuses names the place in the scene file.
+template <class F>
+auto at_place(const SubsurfaceSettings& settings, F&& f) {
+    try {
+        return f();
+    } catch (const InputError& error) {
+        throw InputError(settings.prefix() + error.what());
+    }
+}
+
+class TechniqueIntegrator final : public Integrator {
+  public:
+    explicit TechniqueIntegrator(const Scene& scene) {
+        Translucencies local(scene.shapes.size());
+        for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
+            if (scene.shapes[i].subsurface)
+                local[i] = make(scene, i, make_local_reflection, nullptr);
+        // Its paths are averaged over, so they may end early: an object that stands on a floor sees
+        // light go to and fro in the gap for ever.
+        const PathTracer light(scene, local, 2);
+        Translucencies below(scene.shapes.size());
+        for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
+            if (const auto& settings = scene.shapes[i].subsurface) {
+                const TechniqueDescription& technique =
+                    at_place(*settings, [&]() -> const TechniqueDescription& {
+                        return find_technique(settings->technique);
+                    });
+                if (!technique.make)
+                    throw InputError(fmt::format(
+                        "{}'{}' simulates the whole scene: use <integrator type=\"volpath\">",
+                        settings->prefix(), technique.name));
+                below[i] = make(scene, i, technique.make, &light);
+            }
+        tracer_ = std::make_unique<PathTracer>(scene, std::move(below));
+    }
+
+    Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
+                      RayCounts& counts) const override {
+        return tracer_->radiance(ray, sampler, wavelengths, counts);
+    }
+    Statistics statistics() const override { return statistics_; }
+
+  private:
+    TranslucencyPtr make(const Scene& scene, std::uint32_t shape,
+                         TranslucencyPtr (*maker)(const TechniqueInput&), const PathTracer* light) {
+        const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
+        const float eta = boundary_eta(scene.shapes[shape]);
+        const float scale =
+            settings.exit == "paper" ? 1.f : float(1. / (1. - diffuse_reflectance_external(eta)));
+        return at_place(settings, [&] {
+            return maker({scene, shape, settings, eta, scale, light, statistics_});
+        });
+    }
+
+    std::unique_ptr<PathTracer> tracer_;
+    Statistics statistics_;
+};
+
+std::shared_ptr<const ProfileTables> tables_of(const TechniqueInput& in) {
+    return std::make_shared<ProfileTables>(*in.scene.shapes[in.shape].interior, in.eta,
+                                           in.settings.profile, Bands(in.scene.mode));
+}
+
+}  // namespace
+
+std::span<const TechniqueDescription> techniques() { return catalogue; }
+
+const TechniqueDescription& find_technique(std::string_view name) {
+    const int i = find_name(name, names);
+    if (i < 0) throw InputError(unknown_name("technique", name, names));
+    return catalogue[i];
+}
+
+void choose_technique(Scene& scene, const SubsurfaceSettings& settings) {
+    if (find_technique(settings.technique).make) {
+        find_profile(settings.profile);
+        use_technique(scene, settings);
+    } else {
+        scene.integrator.type = "volpath";
+    }
+}
+
+std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene) {
+    const bool any = std::ranges::any_of(
+        scene.shapes, [](const ShapeBinding& s) { return s.subsurface != nullptr; });
+    if (scene.integrator.type == "path" && any) return std::make_unique<TechniqueIntegrator>(scene);
+    return make_integrator(scene);
+}
+
+std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const TechniqueInput& in,
+                                                                 bool profile_includes_it) {
+    const std::string& choice = in.settings.single_scattering;
+    if (choice == "off" || (choice == "auto" && profile_includes_it)) return nullptr;
+    return std::make_shared<SingleScatteringTerm>(in.scene, in.shape, in.eta);
+}
+
+TranslucencyPtr make_local_reflection(const TechniqueInput& in) {
+    return std::make_shared<LocalReflection>(in.eta, tables_of(in), in.exit_scale);
+}
+
+TranslucencyPtr make_surface_sampling(const TechniqueInput& in) {
+    const auto tables = tables_of(in);
+    return std::make_shared<SurfaceSampling>(
+        in.scene, in.shape, in.eta, tables, in.exit_scale,
+        single_scattering_of(in, tables->includes_single_scattering()));
+}
+
+}  // namespace nacre

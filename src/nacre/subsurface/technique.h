@@ -1,0 +1,67 @@
+#pragma once
+// The techniques that make an image of a translucent object, by name. One list, which the command
+// line, the scene reader and comparisons walk: a technique appears in it by its line in
+// technique.cpp.
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "nacre/render/integrator.h"
+#include "nacre/render/translucency.h"
+#include "nacre/scene/subsurface.h"
+
+namespace nacre {
+
+class PathTracer;
+
+/// What a technique is made of: one shape of a scene.
+struct TechniqueInput {
+    const Scene& scene;
+    std::uint32_t shape;
+    const SubsurfaceSettings& settings;
+    float eta;         ///< index of the medium over that outside
+    float exit_scale;  ///< 1, or 1 over the boundary's mean transmittance (settings.exit)
+    /// Traces paths among surfaces, translucent shapes as local reflectors: for light that falls on
+    /// the shape. Null while those are being made.
+    const PathTracer* light;
+    Statistics& statistics;  ///< what precomputation took
+};
+
+struct TechniqueDescription {
+    std::string_view name;   ///< in scene files and on the command line
+    std::string_view title;  ///< as the field says
+    std::string_view authors;
+    int year = 0;
+    std::string_view paper;
+    std::string_view how;          ///< a sentence or two
+    std::string_view precomputes;  ///< before the first picture; empty if nothing
+    std::string_view may_change;  ///< without computing that again: view, light, material, geometry
+    std::string_view profiles = "";  ///< that it takes; empty if it needs none
+    TranslucencyPtr (*make)(const TechniqueInput&) = nullptr;  ///< null: complete simulation
+};
+
+std::span<const TechniqueDescription> techniques();
+/// By name, regardless of case, blanks, dashes and underscores; throws InputError with the nearest.
+const TechniqueDescription& find_technique(std::string_view name);
+
+/// Has the scene rendered by the technique of `settings`: complete simulation by volpath, any other
+/// by path with that technique in all translucent shapes. Throws InputError for unknown techniques
+/// and profiles, and if nothing in the scene is translucent.
+void choose_technique(Scene& scene, const SubsurfaceSettings& settings);
+
+/// The integrator that the scene names, with the techniques that its shapes name if it is `path`.
+/// Precomputation happens here. `scene` outlives it. Throws InputError, with the place in the file
+/// where there is one, for names that are not known.
+std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene);
+
+class SingleScatteringTerm;
+/// The term of single scattering, if settings and profile want it; else null.
+std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const TechniqueInput& input,
+                                                                 bool profile_includes_it);
+
+// The techniques' makers.
+TranslucencyPtr make_local_reflection(const TechniqueInput& input);
+TranslucencyPtr make_surface_sampling(const TechniqueInput& input);
+TranslucencyPtr make_two_pass(const TechniqueInput& input);
+
+}  // namespace nacre

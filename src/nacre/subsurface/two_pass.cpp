@@ -1,0 +1,155 @@
+#include "nacre/subsurface/two_pass.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "nacre/bssrdf/better_dipole.h"
+#include "nacre/bssrdf/dipole.h"
+#include "nacre/geometry/surface_points.h"
+#include "nacre/geometry/tessellate.h"
+#include "nacre/math/error.h"
+#include "nacre/render/path_tracer.h"
+#include "nacre/render/profile_tables.h"
+#include "nacre/subsurface/technique.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+class Stopwatch {
+  public:
+    /// Seconds since the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double s = std::chrono::duration<double>(now - start_).count();
+        start_ = now;
+        return s;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The points of a shape as the ray scene knows them.
+struct ShapePoints {
+    std::vector<SurfacePoint> at;
+    std::vector<Point3f> p;
+    std::vector<float> area;
+};
+
+ShapePoints spread_points(const TechniqueInput& in, double spacing) {
+    const RayScene& rays = in.scene.rays;
+    const Mesh* mesh = rays.mesh(in.shape);
+    std::optional<Mesh> made;
+    if (!mesh) {
+        made = tessellate(*rays.primitive(in.shape), spacing);
+        mesh = &*made;
+    }
+    const SurfacePointSet set =
+        points_for_spacing(*mesh, spacing, point_method(in.settings.points), in.scene.sampler.seed);
+    ShapePoints result;
+    result.area = set.area;
+    for (std::size_t i = 0; i < set.p.size(); ++i) {
+        const std::optional<Hit> hit =
+            made ? rays.closest(set.p[i], 1e30f, in.shape)
+                 : Hit{0.f, in.shape, set.triangle[i], set.barycentric[i].x, set.barycentric[i].y};
+        result.at.push_back(rays.surface_point({}, *hit));
+        result.p.push_back(result.at.back().p);
+    }
+    return result;
+}
+
+/// Power that enters at each point in each band: irradiance behind the boundary times area.
+std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
+                            const Bands& bands) {
+    const Entry entry(in.eta);
+    const int groups = bands.groups(),
+              samples = std::max(1, in.settings.irradiance_samples / groups);
+    std::vector<float> power(points.p.size() * std::size_t(bands.count()));
+    const Sampler prototype(Sampler::Kind::sobol, in.scene.sampler.seed + 1, samples);
+    tbb::parallel_for(std::size_t(0), points.p.size(), [&](std::size_t i) {
+        Sampler sampler = prototype;
+        RayCounts counts;
+        for (int g = 0; g < groups; ++g) {
+            const Wavelengths w = bands.group(g);
+            Spectral sum(0.f);
+            for (int s = 0; s < samples; ++s) {
+                sampler.start(i * std::size_t(groups) + std::size_t(g), std::uint32_t(s));
+                sum +=
+                    in.light->reflected(points.at[i], entry, {0.f, 0.f, 1.f}, sampler, w, counts);
+            }
+            // `reflected` is irradiance over pi.
+            sum *= Spectral(float(pi) / float(samples) * points.area[i]);
+            for (int b = 4 * g; b < std::min(4 * g + 4, bands.count()); ++b)
+                power[i * std::size_t(bands.count()) + std::size_t(b)] = sum[b - 4 * g];
+        }
+    });
+    return power;
+}
+
+}  // namespace
+
+Translucency::Emergence TwoPass::emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
+                                        const Wavelengths& w, RayCounts& counts) const {
+    float exitance[IrradianceTree::max_bands];
+    tree_.gather(exit.p, kernels_, exitance);
+    Emergence result;
+    result.radiance = bands_.at(exitance, w) * Spectral(exit_scale_ * float(1. / pi));
+    if (single_) result.radiance += single_->radiance(exit, wo, sampler, w, counts);
+    return result;
+}
+
+DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium) {
+    const double s = medium.sigma_s_prime(), a = medium.sigma_a, over_4_pi = 0.25 / pi;
+    if (profile == "dipole") {
+        const Dipole<double> d(s, a, medium.eta);
+        const auto source = [&](double z) {
+            return DipoleKernel::Source{float(z * z), 0.f, float(d.albedo * z * over_4_pi)};
+        };
+        return {float(d.sigma_tr), source(d.z_r), source(d.z_v)};
+    }
+    if (profile == "better_dipole") {
+        const BetterDipole<double> d(s, a, medium.eta);
+        const auto source = [&](double z, double sign) {
+            const double scale = d.albedo_squared * over_4_pi;
+            return DipoleKernel::Source{float(z * z), float(sign * scale * d.c_phi / d.diffusion),
+                                        float(scale * d.c_e * z)};
+        };
+        return {float(d.sigma_tr), source(d.z_r, 1.), source(d.z_v, -1.)};
+    }
+    throw InputError(fmt::format(
+        "technique 'two_pass' takes the profiles dipole and better_dipole, not '{}'", profile));
+}
+
+TranslucencyPtr make_two_pass(const TechniqueInput& in) {
+    const Bands bands(in.scene.mode);
+    const Medium& medium = *in.scene.shapes[in.shape].interior;
+    std::vector<DipoleKernel> kernels;
+    double densest = 0.;
+    for (const ProfileMedium& m : medium_in_bands(medium, in.eta, bands)) {
+        check(m);
+        kernels.push_back(make_kernel(in.settings.profile, m));
+        densest = std::max(densest, m.sigma_t_prime());
+    }
+    const auto profile = make_profile(in.settings.profile, {});
+    Stopwatch watch;
+    const ShapePoints points = spread_points(in, in.settings.spacing / densest);
+    const double seconds_points = watch.lap();
+    const std::vector<float> power = power_at(in, points, bands);
+    const double seconds_irradiance = watch.lap();
+    IrradianceTree tree(points.p, points.area, power, bands.count(), float(in.settings.error));
+    in.statistics.push_back({"points", double(points.p.size()), ""});
+    in.statistics.push_back({"points_seconds", seconds_points, "s"});
+    in.statistics.push_back({"irradiance_seconds", seconds_irradiance, "s"});
+    in.statistics.push_back({"tree_seconds", watch.lap(), "s"});
+    in.statistics.push_back({"tree_bytes", double(tree.bytes()), "bytes"});
+    return std::make_shared<TwoPass>(
+        in.eta, std::move(tree), std::move(kernels), bands, in.exit_scale,
+        single_scattering_of(in, profile->includes_single_scattering()));
+}
+
+}  // namespace nacre

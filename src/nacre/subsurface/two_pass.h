@@ -1,0 +1,38 @@
+#pragma once
+// The two-pass technique of Jensen and Buhler 2002: irradiance at points of the surface, and what
+// they send to each exit by a hierarchy (irradiance_tree.h).
+#include "nacre/bssrdf/medium.h"
+#include "nacre/render/single_scattering.h"
+#include "nacre/render/translucency.h"
+#include "nacre/spectrum/bands.h"
+#include "nacre/subsurface/irradiance_tree.h"
+
+namespace nacre {
+
+class TwoPass final : public Translucency {
+  public:
+    /// `kernels`: R of each band. `exit_scale` and `single` as of SurfaceSampling.
+    TwoPass(float eta, IrradianceTree tree, std::vector<DipoleKernel> kernels, const Bands& bands,
+            float exit_scale, std::shared_ptr<const SingleScatteringTerm> single)
+        : Translucency(eta),
+          tree_(std::move(tree)),
+          kernels_(std::move(kernels)),
+          bands_(bands),
+          exit_scale_(exit_scale),
+          single_(std::move(single)) {}
+
+    Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
+                     const Wavelengths& wavelengths, RayCounts& counts) const override;
+
+  private:
+    IrradianceTree tree_;
+    std::vector<DipoleKernel> kernels_;
+    Bands bands_;
+    float exit_scale_;
+    std::shared_ptr<const SingleScatteringTerm> single_;
+};
+
+/// The kernel of "dipole" or "better_dipole"; throws InputError for other profiles.
+DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium);
+
+}  // namespace nacre
