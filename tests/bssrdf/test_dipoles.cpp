@@ -159,6 +159,14 @@ TEST(Dipoles, RunOnFloatsAndPacks) {
     EXPECT_EQ(lanes.eval(Spectral(0.f))[3], 0.f);  // the unused lane
 }
 
+TEST(PointSource, MeanAttenuationOfPacksKeepsItsDigits) {
+    for (float x = 0.f; x < 20.f; x = x * 1.1f + 1e-4f) {
+        const double expected = x > 0.f ? -std::expm1(-double(x)) / double(x) : 1.;
+        EXPECT_RELATIVE(point_source::mean_attenuation(Spectral(x))[2], expected, 6e-7) << x;
+        EXPECT_RELATIVE(point_source::mean_attenuation(double(x)), expected, 1e-15) << x;
+    }
+}
+
 TEST(DipoleTriangle, AgreesWithTheReference) {
     const GaussLegendre rule(12);
     int checked = 0;

@@ -2,12 +2,13 @@
 // From what artists choose, a surface colour and a distance, to the coefficients of the medium.
 //
 //   H. W. Jensen, J. Buhler 2002, A Rapid Hierarchical Rendering Technique for Translucent
-//   Materials, SIGGRAPH 2002, section 5: the total of the dipole grows with alpha' alone and is
-//   inverted for it; with the diffuse mean free path l_d = 1 / sigma_tr, sigma_t' = 1 / (l_d sqrt(3
-//   (1 - alpha'))).
+//   Materials, SIGGRAPH 2002: the total of the dipole grows with alpha' alone and is inverted for
+//   it; from the diffuse mean free path l_d = 1 / sigma_tr then follows
+//   sigma_t' = 1 / (l_d sqrt(3 (1 - alpha'))).
 //
-// A widely copied implementation writes sqrt(3 - alpha') or sqrt(3 1 - alpha') for that root. Here
-// any radial profile whose total depends on alpha' and eta serves; sigma_tr is the profile's own.
+// A widely copied implementation writes sqrt(3 - alpha') for that root, a slip of precedence. Here
+// any radial profile whose total depends on alpha' and eta alone serves; sigma_tr is the profile's
+// own.
 #include <string_view>
 
 #include "nacre/bssrdf/profile.h"

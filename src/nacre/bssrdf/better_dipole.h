@@ -8,11 +8,11 @@
 //   D = (2 sigma_a + sigma_s') / (3 sigma_t'^2), sigma_tr = sqrt(sigma_a / D), z_r = 1 / sigma_t',
 //   z_v = z_r + 4 A D, A, C_phi and C_E of boundary_moments.h, d^2 = r^2 + z^2:
 //   R = alpha'^2 / (4 pi) { C_phi / D (e^(-sigma_tr d_r) / d_r - e^(-sigma_tr d_v) / d_v)
-//                         + C_E sum over z in {z_r, z_v} of z (1 + sigma_tr d) e^(-sigma_tr d) /
-//                         d^3 }
+//       + C_E sum over z in {z_r, z_v} of z (1 + sigma_tr d) e^(-sigma_tr d) / d^3 }
 //
 // In mm^-2, per power that has entered. Mind alpha'^2: light that was scattered once only is left
-// out, and is to be added (photon_beam_diffusion.h has it). Without absorption the total is 1.
+// out, and is to be added (photon_beam_diffusion.h has it). Without absorption the total is 1. As
+// floats the two fluences cancel far away, where some 1e-4 is lost.
 #include <numbers>
 
 #include "nacre/bssrdf/boundary_moments.h"

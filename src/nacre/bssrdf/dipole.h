@@ -5,9 +5,9 @@
 //   H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan 2001, A Practical Model for Subsurface Light
 //   Transport, SIGGRAPH 2001, section 2.2, eq. 4; G. Eason et al. 1978, T. J. Farrell et al. 1992.
 //
-//   sigma_t' = sigma_s' + sigma_a, alpha' = sigma_s' / sigma_t', sigma_tr = sqrt(3 sigma_a
-//   sigma_t'), z_r = 1 / sigma_t', z_v = z_r (1 + 4 A / 3), d^2 = r^2 + z^2: R_d = alpha' / (4 pi)
-//   sum over z in {z_r, z_v} of z (1 + sigma_tr d) e^(-sigma_tr d) / d^3
+//   sigma_t' = sigma_s' + sigma_a,  alpha' = sigma_s' / sigma_t',  d^2 = r^2 + z^2
+//   sigma_tr = sqrt(3 sigma_a sigma_t'),  z_r = 1 / sigma_t',  z_v = z_r (1 + 4 A / 3)
+//   R_d = alpha' / (4 pi) sum over z in {z_r, z_v} of z (1 + sigma_tr d) e^(-sigma_tr d) / d^3
 //
 // In mm^-2, per power that has entered the medium. All light that comes back is in the total,
 // single scattering with it, though in the wrong place: near the source, within about two transport
@@ -55,8 +55,7 @@ struct Dipole {
         return albedo * (point_source::flux_within(r2, z_r, sigma_tr) +
                          point_source::flux_within(r2, z_v, sigma_tr));
     }
-    /// Over the whole plane: alpha' / 2 (1 + e^(-4/3 A sqrt(3 (1 - alpha')))) e^(-sqrt(3 (1 -
-    /// alpha'))).
+    /// Over the whole plane: alpha' / 2 (1 + e^(-4/3 A s)) e^(-s) with s = sqrt(3 (1 - alpha')).
     T total() const {
         return albedo * (point_source::flux_everywhere(z_r, sigma_tr) +
                          point_source::flux_everywhere(z_v, sigma_tr));

@@ -13,13 +13,13 @@
 //   d_e = 2.131 D / sqrt(alpha'),  cos_beta = -sqrt((r^2 - (x.w12)^2) / (r^2 + d_e^2))
 //   n* the unit vector along ni less its part along x (ni at r = 0), xv = xi + 2 A d_e n*,
 //   wv = w12 mirrored in the plane of n*, d_v = |xo - xv|
-// C_phi and C_E from the fits of d'Eon and Irving 2011, A = (1 - C_E) / (2 C_phi). Unlike in
-// boundary_moments.h the fits do not vanish at eta = 1, as in the paper.
+// C_phi and C_E from the fits of d'Eon and Irving 2011, A = (1 - C_E) / (2 C_phi); they are used at
+// eta = 1 as well, where they do not vanish.
 //
-// In mm^-2 sr^-1, without Fresnel factors: the light enters with 1 - F, leaves with 1 - F, and the
-// paper's S has the unscattered and once-scattered light of a delta-Eddington beam beside it. It is
-// not reciprocal and may be negative (named options below). Confidence: agrees with an independent
-// reading of the paper and of one public implementation, not with a simulation.
+// In mm^-2 sr^-1, without Fresnel factors: light enters and leaves with 1 - F. The unscattered and
+// once-scattered light of the paper's delta-Eddington beam is not in it. It is not reciprocal and
+// may be negative (options below). Checked against an independent oracle, which was read against
+// one public implementation; not against a simulation.
 #include <numbers>
 
 #include "nacre/math/lanes.h"

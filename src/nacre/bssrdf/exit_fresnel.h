@@ -7,7 +7,7 @@
 //
 // R_d is the radiant exitance outside, so that what leaves in all directions must be R_d: the mean
 // of X over the hemisphere, weighted by the cosine, must be 1. Jensen et al. write X = T(wo), whose
-// mean is 1 - F_ext (0.93 at eta 1.3): some light is lost at the surface twice. Both are here.
+// mean is 1 - F_ext (0.94 at eta 1.3): some light is lost at the surface twice. Both are here.
 #include <numbers>
 
 #include "nacre/optics/fresnel.h"

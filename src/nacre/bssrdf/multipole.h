@@ -6,10 +6,11 @@
 //   24(3).
 //
 // Thickness t, l' = 1 / sigma_t', D = l' / 3, z_b = 2 A D above the upper and below the lower face,
-// L = t + z_b,upper + z_b,lower, i from -n to n:
-//   z_r,i = 2 i L + l',   z_v,i = 2 i L - l' - 2 z_b,upper,   f(z) = z (1 + sigma_tr d)
-//   e^(-sigma_tr d) / d^3 R(r) = alpha' / (4 pi) sum of f(z_r,i) - f(z_v,i) T(r) = alpha' / (4 pi)
-//   sum of f(t - z_r,i) - f(t - z_v,i)
+// L = t + z_b,upper + z_b,lower, i from -n to n, d^2 = r^2 + z^2:
+//   z_r,i = 2 i L + l',   z_v,i = 2 i L - l' - 2 z_b,upper
+//   f(z) = z (1 + sigma_tr d) e^(-sigma_tr d) / d^3
+//   R(r) = alpha' / (4 pi) sum of f(z_r,i) - f(z_v,i)
+//   T(r) = alpha' / (4 pi) sum of f(t - z_r,i) - f(t - z_v,i)
 //
 // In mm^-2, per power that has entered. Single scattering is included as in the classical dipole,
 // of which this is the slab: for t -> infinity R becomes the dipole's. Without absorption the sum

@@ -6,12 +6,9 @@
 //   Scattering, Pixar Technical Memo 15-04.
 //
 //   R(r) = A (e^(-r/d) + e^(-r/(3 d))) / (8 pi d r),   d = l / s(A)
-//   searchlight        s = 1.85 - A + 7 |A - 0.8|^3          l the mean free path, light that
-//   enters
-//                                                            at a right angle
-//   diffuse            s = 1.9 - A + 3.5 (A - 0.8)^2         l the mean free path, diffuse light
-//   diffuse_free_path  s = 3.5 + 100 (A - 0.33)^4            l the diffuse mean free path
-//   1/sigma_tr
+//   searchlight        s = 1.85 - A + 7 |A - 0.8|^3      l: mean free path; light at a right angle
+//   diffuse            s = 1.9 - A + 3.5 (A - 0.8)^2     l: mean free path; diffuse light
+//   diffuse_free_path  s = 3.5 + 100 (A - 0.33)^4        l: diffuse mean free path 1/sigma_tr
 //
 // In mm^-2. A is the surface albedo of all scattered light, single scattering included, in [0, 1];
 // R is infinite, but integrable, at r = 0. Erratum: the paper says that the cumulative distribution

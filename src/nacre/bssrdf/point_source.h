@@ -37,8 +37,8 @@ T mean_attenuation(T x) {
         return x > T(0) ? -expm1(-x) / x : T(1);
     } else {
         const auto small = x < T(0.25);
-        const T series =
-            T(1) - x * T(0.5) * (T(1) - x * T(1. / 3) * (T(1) - x * T(0.25) * (T(1) - x * T(0.2))));
+        const T inner = T(1) - x * T(0.25) * (T(1) - x * T(0.2) * (T(1) - x * T(1. / 6)));
+        const T series = T(1) - x * T(0.5) * (T(1) - x * T(1. / 3) * inner);
         const T safe = select(small, T(1), x);
         return select(small, series, (T(1) - exp(-safe)) / safe);
     }

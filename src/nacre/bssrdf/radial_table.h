@@ -8,7 +8,7 @@
 // ln R is a cubic through values and slopes at both ends. From 1e-4 of the profile's length scale,
 // nearer than which R is held constant, to where an octave adds less than 1e-6 of the light, at
 // most 1e4 scales, beyond which R is 0. The relative error within this range is below 1e-4 (tested
-// for every profile). A channel takes 24 bytes for each of some 300 to 400 nodes.
+// for every profile). A channel takes 24 bytes for each of 280 to 440 nodes.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -35,8 +35,8 @@ class BasicRadialTable {
     V eval(float r2) const;
     /// Integral of R over the disk of squared radius r2, to the error of the values.
     V cumulative(float r2) const;
-    /// Over all that is tabulated: with absorption within some 1e-6 of the profile's total, without
-    /// it short of the total by what lies beyond 1e4 scales, 1e-4 or so.
+    /// Over all that is tabulated: with absorption within 1e-6 of the profile's total, without it
+    /// short of the total by what lies beyond 1e4 scales, 3e-4 at most.
     V total() const { return nodes_.back().within; }
 
     /// Radius (mm) from u in [0, 1), distributed after one channel with the density `pdf` exactly.
