@@ -1,6 +1,6 @@
 // Profiles by name: descriptions, options, tables, inversion of albedos, wrong input.
 #include "nacre/bssrdf/albedo_inversion.h"
-#include "nacre/bssrdf/normalised_diffusion.h"
+#include "nacre/bssrdf/chiang2016.h"
 #include "nacre/bssrdf/radial_integral.h"
 #include "nacre/bssrdf/radial_table.h"
 #include "nacre/math/random.h"
@@ -87,6 +87,12 @@ TEST(RadialProfiles, OptionsReachTheModels) {
     EXPECT_LT(total("photon_beam_diffusion", ""), total("photon_beam_diffusion", "single=on"));
     EXPECT_NE(total("quantised_diffusion", "count=10"), total("quantised_diffusion", ""));
     EXPECT_LT(total("multipole", "thickness=2"), total("multipole", "thickness=20"));
+    // The albedo of normalised diffusion is the one whose random walks have the medium's alpha'.
+    const auto walk = chiang2016_medium(0.6, 1.);
+    EXPECT_NEAR(make_profile("normalised_diffusion",
+                             ProfileMedium::reduced(walk.sigma_s, walk.sigma_t - walk.sigma_s, 1.))
+                    ->total(),
+                0.6, 1e-12);
     EXPECT_TRUE(make_profile("photon_beam_diffusion", m, parse_settings("single=on"))
                     ->includes_single_scattering());
     EXPECT_FALSE(make_profile("photon_beam_diffusion", m)->includes_single_scattering());
