@@ -66,6 +66,23 @@ TEST(MeshScene, ObjectHoldsTheMeasuredMedium) {
     EXPECT_EQ(scene.integrator.type, "volpath");
 }
 
+TEST(MeshScene, ObjectMayBeSkin) {
+    for (const char* name : {"skin", "Skin"}) {
+        const Scene scene = make_mesh_scene(sphere_mesh(), {.material = name});
+        const ShapeBinding& object = scene.shapes[shape_named(scene, "ball")];
+        ASSERT_NE(object.interior, nullptr);
+        EXPECT_TRUE(object.interior->is_spectral());
+        EXPECT_EQ(scene.mode, ColorMode::spectral);
+        EXPECT_NEAR(object.material->smooth_boundary_eta(), 1.4f, 1e-6f);
+        // Jacques 1998: 2e5 600^-1.5 + 2e12 600^-4 cm^-1 of reduced scattering at 600 nm.
+        const Wavelengths w = Wavelengths::at(Spectral(600.f));
+        EXPECT_NEAR(object.interior->coefficients({}, w).sigma_s[0], 2.9040375f, 1e-5f);
+    }
+    const Scene rgb =
+        make_mesh_scene(sphere_mesh(), {.material = "skin", .mode = ColorMode::rgb_bands});
+    EXPECT_EQ(rgb.mode, ColorMode::rgb_bands);
+}
+
 TEST(MeshScene, CameraFramesTheBoundingSphere) {
     const Scene scene = make_mesh_scene(sphere_mesh(), {});
     const auto object = shape_named(scene, "ball");

@@ -28,16 +28,17 @@ SceneNodePtr read_scene_xml(const std::filesystem::path& file,
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 struct MeshSceneOptions {
-    std::string material = "marble";       ///< one of the measured media (optics/media.h)
+    std::string material = "marble";       ///< a measured medium (optics/media.h), or skin
     std::optional<double> height_mm = {};  ///< how tall the object is; unset: 100 mm
     int width = 512, height = 512;
     std::optional<ColorMode> mode = {};
 };
-/// A mesh file as a scene: the object in the measured medium behind a smooth boundary, standing on
+/// A mesh file as a scene: the object in a translucent medium behind a smooth boundary, standing on
 /// a floor, camera and lights chosen to frame it (warm key light, strong light from behind for
 /// translucency, soft environment). The mesh is scaled to its height, y is up and +z the front; a
 /// mesh that is inside out is turned round. Scene units are millimetres. The medium is the measured
-/// one with reduced coefficients and isotropic scattering. Integrator volpath, 64 samples.
+/// one, or that of <medium type="skin"> with its defaults, which makes the scene spectral; either
+/// with reduced coefficients and isotropic scattering. Integrator volpath, 64 samples.
 /// Throws InputError for unknown media, unreadable or flat meshes.
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options = {});
 /// The same for a mesh in memory, which is not changed.

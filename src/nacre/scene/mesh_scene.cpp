@@ -7,7 +7,9 @@
 
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
+#include "nacre/layers/skin.h"
 #include "nacre/optics/media.h"
+#include "nacre/optics/names.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
 #include "nacre/scene/write_nodes.h"
@@ -76,19 +78,35 @@ NodePtr camera_for(const Stage& stage, const MeshSceneOptions& options) {
     return camera;
 }
 
-NodePtr translucent_shape(const MeasuredMedium& measured) {
+/// What fills the object, and its index of refraction.
+struct Filling {
+    NodePtr medium;
+    double eta;
+};
+
+/// The coefficients are reduced ones, with isotropic scattering: what was measured, and by the
+/// similarity relation as good as the true phase function after a few collisions.
+Filling filling(std::string_view material) {
+    Filling r;
+    if (plain_name(material) == "skin") {
+        r = {make_node("medium", "skin"), SkinParameters{}.epidermis.eta};
+    } else {
+        const MeasuredMedium& measured = measured_medium(material);
+        r = {make_node("medium", "homogeneous"), measured.eta};
+        set(r.medium, "material", "string", std::string(measured.name));
+    }
+    add(r.medium, make_node("phase", "isotropic"));
+    return r;
+}
+
+NodePtr translucent_shape(const Filling& filling) {
     auto boundary = make_node("bsdf", "dielectric");
-    set(boundary, "int_ior", "float", double{measured.eta});
+    set(boundary, "int_ior", "float", filling.eta);
     set(boundary, "ext_ior", "float", 1.0);
-    auto medium = make_node("medium", "homogeneous");
-    // The reduced coefficients with isotropic scattering: what was measured, and by the similarity
-    // relation as good as the unknown phase function after a few collisions.
-    set(medium, "material", "string", std::string(measured.name));
-    add(medium, make_node("phase", "isotropic"));
     auto shape = make_node("shape", "obj");
     shape->id = "object";
     add(shape, boundary);
-    add(shape, medium, "interior");
+    add(shape, filling.medium, "interior");
     return shape;
 }
 
@@ -111,7 +129,7 @@ std::shared_ptr<Mesh> placed(Mesh mesh, double height_mm) {
 }  // namespace
 
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {
-    const MeasuredMedium& measured = measured_medium(options.material);
+    const Filling inside = filling(options.material);
     const double height = options.height_mm.value_or(100.0);
     if (!(height > 0.0) || !std::isfinite(height))
         throw InputError(
@@ -133,7 +151,7 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
     add(root, ball_light(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
     add(root, ball_light(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
     add(root, floor_under(stage, height));
-    auto shape = translucent_shape(measured);
+    auto shape = translucent_shape(inside);
     if (!object->name.empty()) shape->id = object->name;
     add(root, shape);
 
@@ -143,7 +161,7 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
 }
 
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {
-    measured_medium(options.material);  // a wrong name is told before a large mesh is read
+    filling(options.material);  // a wrong name is told before a large mesh is read
     std::shared_ptr<Mesh> mesh = load_mesh(file);
     if (mesh->name.empty()) mesh->name = file.filename().string();
     return make_mesh_scene(std::move(mesh), options);
