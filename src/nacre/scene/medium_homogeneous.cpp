@@ -87,10 +87,9 @@ void set_surface_color(const SceneNode& node, Medium& medium) {
         "be finite and positive");
     Vec3f scattering, absorption;
     for (int i = 0; i < 3; ++i) {
-        const float alpha = Chiang2016<float>::albedo(color[i]);
-        const float sigma_t = 1.f / (radius[i] * Chiang2016<float>::scale(color[i]));
-        scattering[i] = alpha * sigma_t / (1.f - medium.phase.mean_cosine());
-        absorption[i] = (1.f - alpha) * sigma_t;
+        const auto isotropic = chiang2016_medium(color[i], radius[i]);
+        scattering[i] = isotropic.sigma_s / (1.f - medium.phase.mean_cosine());
+        absorption[i] = isotropic.sigma_t - isotropic.sigma_s;
     }
     set_scattering_and_absorption(medium, make_rgb_unbounded(scattering),
                                   make_rgb_unbounded(absorption));
