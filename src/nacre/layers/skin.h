@@ -58,8 +58,8 @@ LayerStack skin_stack(const SkinParameters& skin, double nm);
 /// scattering the reflectance is within 0.021 for melanin up to 0.43. With the layers' indices, and
 /// this medium behind a boundary of its own, it is too low by up to 0.018 without melanin, 0.027
 /// for 0.013, 0.043 for 0.03, 0.062 for 0.06 and at worst 0.078, for 0.15 in the red. Of that some
-/// 0.02 is mirrored by the stratum corneum; the rest is light that refraction has turned towards
-/// the normal, and that crosses the melanin by a shorter way than diffuse light.
+/// 0.02 is mirrored by the stratum corneum; the rest is presumably light that refraction has turned
+/// towards the normal, and that crosses the melanin by a shorter way than diffuse light.
 ///
 /// How: let Y = flux / fluence going down, which is D kappa = sqrt(sigma_a / (3 sigma_t')) in a
 /// half space and turns from the bottom of a layer to its top into
