@@ -201,6 +201,11 @@ TEST(DipoleTriangle, PiecesAddUpAndAPlaneReturnsTheTotal) {
     EXPECT_NEAR(4. * (of(corner[0], corner[0], corner[1], corner[2]) +
                       of(corner[0], corner[0], corner[2], corner[3])),
                 dipole.total(), 1e-8);
+    // Over a plane at height h: distances below h do not occur.
+    const Vec3d above(5., -9., 1.5);
+    EXPECT_NEAR(
+        of(above, corner[0], corner[1], corner[2]) + of(above, corner[0], corner[2], corner[3]),
+        dipole.total() - dipole.cumulative(1.5 * 1.5), 1e-8);
     // Turned and moved in space, and cut in two.
     const Vec3d p(0.3, -0.2, 0.5), a(1., 0., 0.2), b(0., 2., 0.), c(-1., -1., 1.);
     const Vec3d middle = (b + c) * 0.5, shift(3., 4., 5.);
