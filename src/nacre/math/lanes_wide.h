@@ -49,6 +49,25 @@ inline Wide erfc(Wide x) { return wide_detail::wide(xsimd::erfc(wide_detail::bat
 inline Wide atan2(Wide y, Wide x) {
     return wide_detail::wide(xsimd::atan2(wide_detail::batch(y), wide_detail::batch(x)));
 }
+// xsimd 8 has neither of the next two for every processor.
+
+/// 1 / sqrt(x) for x > 0, off by 4e-4 at most (7e-5 with AVX-512), at a fraction of its price.
+inline Wide fast_rsqrt(Wide x) {
+#if defined(__AVX512F__) && defined(__OPTIMIZE__)
+    return wide_detail::wide(_mm512_rsqrt14_ps(wide_detail::batch(x)));
+#else
+    return wide_detail::wide(_mm256_rsqrt_ps(wide_detail::batch(x)));
+#endif
+}
+/// Bit i is set where a > b in lane i.
+inline std::uint32_t greater_bits(Wide a, Wide b) {
+#if defined(__AVX512F__) && defined(__OPTIMIZE__)
+    return _mm512_cmp_ps_mask(wide_detail::batch(a), wide_detail::batch(b), _CMP_GT_OQ);
+#else
+    return std::uint32_t(_mm256_movemask_ps(
+        _mm256_cmp_ps(wide_detail::batch(a), wide_detail::batch(b), _CMP_GT_OQ)));
+#endif
+}
 /// x^y for x > 0 (0 for x <= 0), with the error of y log x.
 inline Wide pow(Wide x, Wide y) {
     const Wide r = exp(y * log(select(x > Wide(0.f), x, Wide(1.f))));

@@ -21,8 +21,8 @@ struct SubsurfaceSettings {
     /// "auto": the single-scattering term is added to profiles that leave it out.
     std::string single_scattering = "auto";
     double spacing = 1.;  ///< of surface points, in transport mean free paths of the densest band
-    double error = 0.05;  ///< largest solid angle of a group of points that counts as one, sr
-    int irradiance_samples = 16;         ///< paths at each surface point
+    double error = 0.2;   ///< largest solid angle of a group of points that counts as one, sr
+    int irradiance_samples = 8;          ///< paths at each surface point
     std::string points = "elimination";  ///< how they are spread: elimination, repulsion, random
     std::string where{};                 ///< place in the file, for messages; may be empty
 

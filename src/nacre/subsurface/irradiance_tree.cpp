@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 #include "nacre/math/lanes_wide.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr int lanes = Wide::size;
 // Levels of a tree of 2^32 points over 8 lanes, and the siblings that wait at each.
 constexpr int stack_size = 11 * lanes;
+constexpr std::uint32_t all_lanes = (1u << lanes) - 1u;
 // A distance that every point is beyond: points of leaves are always taken.
 constexpr float always = -1.f;
 
@@ -155,22 +157,19 @@ void IrradianceTree::gather(const Point3f& at, std::span<const DipoleKernel> ker
         const Wide dx = Wide::load(d) - x, dy = Wide::load(d + lanes) - y,
                    dz = Wide::load(d + 2 * lanes) - z;
         const Wide r2 = dx * dx + dy * dy + dz * dz;
-        const auto taken = r2 > Wide::load(d + 3 * lanes);
+        const Wide accepted = Wide::load(d + 3 * lanes);
+        const auto taken = r2 > accepted;
+        // Unused lanes count as taken: their power is 0.
+        const std::uint32_t far = greater_bits(r2, accepted);
         const std::int32_t* child = child_.data() + std::size_t(n) * lanes;
-        int count = 0;
-        for (int i = 0; i < lanes; ++i) {
-            // Unused lanes count as taken: their power is 0.
-            if (taken[i])
-                ++count;
-            else
-                stack[depth++] = child[i];
-        }
-        if (count == 0) continue;
+        for (std::uint32_t near = ~far & all_lanes; near; near &= near - 1)
+            stack[depth++] = child[std::countr_zero(near)];
+        if (far == 0) continue;
         for (int b = 0; b < bands_; ++b) {
             const DipoleKernel& k = kernels[std::size_t(b)];
             const auto source = [&](const DipoleKernel::Source& s) {
                 const Wide d2 = r2 + Wide(s.z2);
-                const Wide inverse = Wide(1.f) / sqrt(d2);
+                const Wide inverse = fast_rsqrt(d2);
                 const Wide t = Wide(k.sigma_tr) * d2 * inverse;
                 return exp(-t) * inverse *
                        (Wide(s.p) + Wide(s.q) * (Wide(1.f) + t) * inverse * inverse);

@@ -1,0 +1,231 @@
+// Techniques for translucent objects where the answer is known: flat, thick and thin slabs.
+#include "nacre/bssrdf/dipole.h"
+#include "nacre/bssrdf/profile.h"
+#include "nacre/bssrdf/single_scattering.h"
+#include "nacre/render/single_scattering.h"
+#include "nacre/subsurface/technique.h"
+#include "tests/render/render_fixture.h"
+
+namespace nacre {
+namespace {
+
+constexpr double eta = 1.3;
+const std::string coefficients =
+    xml::rgb("sigma_s", {1., 0.7, 2.}) + xml::rgb("sigma_a", {0.1, 0.2, 0.15});
+
+/// A box from z = -thickness to 0 that is 60 mm wide.
+std::string slab(double thickness, const std::string& inside) {
+    return xml::shape("cube",
+                      fmt::format("<transform name=\"to_world\"><scale x=\"30\" y=\"30\" z=\"{}\"/>"
+                                  "<translate z=\"{}\"/></transform>",
+                                  0.5 * thickness, -0.5 * thickness) +
+                          xml::flag("face_normals", true) + inside);
+}
+std::string subsurface(const std::string& profile, const std::string& options) {
+    return "<subsurface type=\"" + profile + "\">" + coefficients + xml::number("int_ior", eta) +
+           xml::number("ext_ior", 1) + options + "</subsurface>";
+}
+std::string word(const std::string& name, const std::string& value) {
+    return "<string name=\"" + name + "\" value=\"" + value + "\"/>";
+}
+
+/// Rays onto the middle of the slab from `direction`.
+RayMaker onto_the_middle(const Vec3f& from, float half) {
+    return [=](Vec2f u) {
+        const Vec3f d = normalize(from);
+        const Point3f p{half * (2.f * u.x - 1.f), half * (2.f * u.y - 1.f), 0.f};
+        return Ray{p + d * 50.f, -d};
+    };
+}
+
+ProfileMedium medium(int c) {
+    const double s[] = {1., 0.7, 2.}, a[] = {0.1, 0.2, 0.15};
+    return {s[c], a[c], 0., eta};
+}
+
+class Techniques : public RenderTest {
+  protected:
+    RadianceEstimate look(const Scene& s, const RayMaker& rays, EstimateOptions options = {}) {
+        return estimate(s, *make_technique_integrator(s), rays, options);
+    }
+};
+
+}  // namespace
+
+TEST_F(Techniques, AFlatObjectInEvenLightReturnsTheProfilesTotal) {
+    const double f = fresnel_dielectric(1., eta);
+    for (const char* technique : {"brdf", "surface", "two_pass"})
+        for (const char* profile : {"dipole", "better_dipole", "photon_beam_diffusion",
+                                    "quantised_diffusion", "normalised_diffusion"}) {
+            if (technique == std::string("two_pass") && !std::string(profile).ends_with("dipole"))
+                continue;
+            const Scene s =
+                scene(xml::integrator("path") + xml::constant_light() +
+                      slab(30, subsurface(profile, word("method", technique) +
+                                                       word("single_scattering", "off") +
+                                                       xml::number("error", 0.05) +
+                                                       xml::integer("irradiance_samples", 16))));
+            Vec3d expected;
+            for (int c = 0; c < 3; ++c)
+                expected[c] = f + (1. - f) * make_profile(profile, medium(c))->total();
+            const RadianceEstimate e =
+                look(s, onto_the_middle({0, 0, 1}, 10), {.pixels = 400, .samples = 64});
+            const std::string what = fmt::format("{} {}", technique, profile);
+            // The sum over points instead of the integral, groups of them, and single precision.
+            const double slack = technique == std::string("two_pass") ? 4e-3 : 1e-3;
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(e.mean[c], expected[c], 4.5 * e.error[c] + slack * expected[c])
+                    << what << c;
+                EXPECT_LT(e.error[c], 0.01 * expected[c]) << what;
+            }
+        }
+}
+
+TEST_F(Techniques, ThePapersExitLosesTheMeanReflectance) {
+    const auto at = [&](const char* exit) {
+        const Scene s = scene(
+            xml::integrator("path") + xml::constant_light() +
+            slab(30, subsurface("dipole", word("method", "brdf") + word("exit_fresnel", exit))));
+        return look(s, onto_the_middle({0, 0, 1}, 10), {.pixels = 100, .samples = 64}).mean;
+    };
+    const double f = fresnel_dielectric(1., eta);
+    EXPECT_NEAR((at("paper").x - f) / (at("normalised").x - f),
+                1. - diffuse_reflectance_external(eta), 2e-3);
+}
+
+TEST_F(Techniques, LightFromBehindReachesThroughAThinSlab) {
+    // A beam along the slab's whole back side; the front sees, at distance sqrt(rho^2 + d^2),
+    // alpha'/2 sum z e^(-sigma_tr D) / D, D^2 = d^2 + z^2.
+    constexpr double d = 1.5;
+    for (const char* technique : {"surface", "two_pass"}) {
+        const Scene s = scene(
+            xml::integrator("path") +
+            "<emitter type=\"directional\"><vector name=\"direction\" value=\"0, 0, 1\"/>" +
+            xml::rgb("irradiance", {1, 1, 1}) + "</emitter>" +
+            slab(d, subsurface("dipole", word("method", technique) + xml::number("error", 0.05) +
+                                             xml::number("spacing", 0.5))));
+        const RadianceEstimate e =
+            look(s, onto_the_middle({0, 0, 1}, 8), {.pixels = 1000, .samples = 64});
+        const double t = 1. - fresnel_dielectric(1., eta);
+        for (int c = 0; c < 3; ++c) {
+            const ProfileMedium m = medium(c);
+            const Dipole<double> dipole(m.sigma_s, m.sigma_a, eta);
+            double sum = 0.;
+            for (double z : {dipole.z_r, dipole.z_v}) {
+                const double far = std::hypot(z, d);
+                sum += 0.5 * dipole.albedo * z * std::exp(-dipole.sigma_tr * far) / far;
+            }
+            const double expected = t * t / (1. - diffuse_reflectance_external(eta)) * sum / pi;
+            EXPECT_NEAR(e.mean[c], expected, 4.5 * e.error[c] + 4e-3 * expected) << technique << c;
+            EXPECT_LT(e.error[c], 0.02 * expected) << technique;
+        }
+    }
+}
+
+TEST_F(Techniques, SingleScatteringOfAFlatObjectIsHanrahanAndKruegers) {
+    const Scene s =
+        scene(xml::integrator("path") +
+              "<emitter type=\"directional\"><vector name=\"direction\" value=\"0.6, 0, -0.8\"/>" +
+              xml::rgb("irradiance", {1, 1, 1}) + "</emitter>" +
+              slab(30, subsurface("dipole", xml::phase("hg", 0.4) + word("method", "brdf"))));
+    const SingleScatteringTerm term(s, 0, float(eta));
+    const Ray down{{0.1f, 0.2f, 5.f}, {0.f, 0.f, -1.f}};
+    SurfacePoint exit = s.rays.surface_point(down, *s.rays.intersect(down));
+    exit.shading = Framef{};
+    const auto at = [&](const Vec3f& wo) {
+        std::vector<Vec3d> values;
+        Sampler sampler(Sampler::Kind::independent, 3, 1);
+        RayCounts counts;
+        for (int i = 0; i < 200'000; ++i) {
+            sampler.start(std::uint64_t(i), 0);
+            const Spectral r = term.radiance(exit, wo, sampler, Wavelengths::rgb_bands(), counts);
+            values.push_back({r[0], r[1], r[2]});
+        }
+        return RadianceEstimate::of(values);
+    };
+    for (const Vec3f& from :
+         {Vec3f{0, 0, 1}, Vec3f{0.28f, 0.f, 0.96f}, Vec3f{-0.6f, 0.48f, 0.64f}}) {
+        const RadianceEstimate e = at(from);
+        for (int c = 0; c < 3; ++c) {
+            const ProfileMedium m = medium(c);
+            const SingleScattering<double> exact{m.sigma_s, m.sigma_t(), 0.4};
+            const Vec3d wi{-0.6, 0., 0.8}, wo(from);
+            const double expected =
+                exact.half_space_brdf(wi, wo, eta) * wi.z / (1. - fresnel_dielectric(wo.z, eta));
+            EXPECT_NEAR(e.mean[c], expected, 4.5 * e.error[c] + 1e-4 * expected) << c;
+            EXPECT_LT(e.error[c], 0.01 * expected);
+        }
+    }
+}
+
+TEST_F(Techniques, WavelengthsAndBandsAgreeWhereTheMediumIsGrey) {
+    const std::string grey = xml::number("sigma_s", 1) + xml::number("sigma_a", 0.1) +
+                             xml::number("int_ior", 1.3) + xml::number("ext_ior", 1);
+    for (const char* technique : {"surface", "two_pass"}) {
+        const std::string body =
+            xml::integrator("path") + xml::constant_light() +
+            slab(30, "<subsurface type=\"dipole\">" + grey + word("method", technique) +
+                         xml::number("error", 0.05) + "</subsurface>");
+        const RayMaker rays = onto_the_middle({0, 0, 1}, 10);
+        const EstimateOptions options{.pixels = 400, .samples = 64};
+        expect_agreement(look(scene(body), rays, options),
+                         look(scene(body, ColorMode::spectral), rays, options),
+                         sidak_deviations(6, 1e-4), technique);
+    }
+}
+
+TEST_F(Techniques, EntersWhatFallsOnASphereFromEverywhere) {
+    // A white object in even light, seen from anywhere, by techniques that put the light back
+    // locally: as bright as the light.
+    const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                          xml::sphere({}, 5,
+                                      "<subsurface type=\"dipole\">" + xml::number("sigma_s", 2) +
+                                          xml::number("sigma_a", 0) + xml::number("int_ior", eta) +
+                                          xml::number("ext_ior", 1) + word("method", "brdf") +
+                                          "</subsurface>"));
+    const RadianceEstimate e =
+        look(s, ray_bundle({0, 0, 20}, {0, 0, -1}, 4.9f), {.pixels = 400, .samples = 64});
+    // Towards an oblique view more is reflected and less let out, and the mean over directions of
+    // what is let out is 1, not each: at the sphere's middle disk the sum is within a percent.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(e.mean[c], 1., 0.03);
+}
+
+TEST_F(Techniques, ChooseByName) {
+    Scene s = scene(xml::integrator("volpath") + xml::constant_light() +
+                    slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients)));
+    SubsurfaceSettings settings;
+    for (const TechniqueDescription& t : techniques()) {
+        settings.technique = std::string(t.name);
+        choose_technique(s, settings);
+        EXPECT_EQ(s.integrator.type, t.make ? "path" : "volpath");
+        EXPECT_NO_THROW(make_technique_integrator(s)) << t.name;
+    }
+}
+
+TEST_F(Techniques, SayWhatTheyCannotDo) {
+    const auto message = [&](const std::string& profile, const std::string& options) {
+        return error_of([&] {
+            const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                                  slab(1, subsurface(profile, options)));
+            make_technique_integrator(s);
+        });
+    };
+    const std::string place = "scene.xml:4:153";
+    const auto starts = [&](const std::string& text, const std::string& rest) {
+        const std::size_t at = text.find(": ");
+        EXPECT_TRUE(text.starts_with(place)) << text;
+        EXPECT_EQ(text.substr(at + 2, rest.size()), rest) << text;
+    };
+    starts(message("dipole", word("method", "two_passes")),
+           "unknown technique \"two_passes\": did you mean \"two_pass\"? known are volpath, brdf, "
+           "surface, two_pass");
+    starts(message("dipol", word("method", "surface")),
+           "unknown diffusion profile \"dipol\": did you mean \"dipole\"?");
+    starts(message("normalised_diffusion", word("method", "two_pass")),
+           "technique 'two_pass' takes the profiles dipole and better_dipole, not "
+           "'normalised_diffusion'");
+    starts(message("dipole", word("method", "volpath")),
+           "'volpath' simulates the whole scene: use <integrator type=\"volpath\">");
+}
+
+}  // namespace nacre
