@@ -29,7 +29,8 @@ void check(const LayerStack& stack) {
                "finite, except in the last layer");
         demand(l.eta > 0. && std::isfinite(l.eta), "eta", l.eta, "positive and finite");
     }
-    for (const auto& [name, eta] : {std::pair{"above", stack.eta_above}, {"below", stack.eta_below}})
+    for (const auto& [name, eta] :
+         {std::pair{"above", stack.eta_above}, {"below", stack.eta_below}})
         if (!(eta > 0.) || !std::isfinite(eta))
             throw InputError(
                 fmt::format("the index of refraction {} the layers is {:g}; it must be positive "

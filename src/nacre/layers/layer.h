@@ -34,8 +34,8 @@ struct LayerTotals {
     double reflectance = 0.;    ///< all that comes back, `specular` included
     double transmittance = 0.;  ///< all that leaves at the bottom, `unscattered` included
     double absorptance = 0.;
-    double specular = 0.;       ///< reflected by the first surface alone
-    double unscattered = 0.;    ///< leaves at the bottom without having been scattered
+    double specular = 0.;     ///< reflected by the first surface alone
+    double unscattered = 0.;  ///< leaves at the bottom without having been scattered
 };
 
 }  // namespace nacre
