@@ -14,6 +14,7 @@
 #pragma GCC diagnostic pop
 
 #include "nacre/layers/angular_grid.h"
+#include "nacre/layers/interfaces.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/fresnel.h"
 
@@ -193,32 +194,6 @@ Operator layer_operator(const Layer& layer, const Medium& m, int moments) {
     return symmetric(MatrixXd::Zero(n, n), t.asDiagonal());
 }
 
-/// Light of one p that no layer has scattered, between all interfaces.
-struct Unscattered {
-    double reflectance = 0., transmittance = 1.;
-};
-
-/// The media from top to bottom: eta[0] above, then the layers', then the one below.
-Unscattered unscattered(const LayerStack& stack, const std::vector<double>& eta,
-                        const AngularNode& node) {
-    Unscattered u;
-    for (std::size_t k = stack.layers.size() + 1; k-- > 0;) {
-        const double cosine = node.cosine_in(eta[k]);
-        if (cosine == 0.) return {1., 0.};  // not reached: k > 0
-        const double f = fresnel_dielectric(cosine, eta[k + 1] / eta[k]);
-        if (f == 1.)
-            u = {1., 0.};
-        else {
-            const double series = (1. - f) / (1. - f * u.reflectance);
-            u = {f + (1. - f) * series * u.reflectance, series * u.transmittance};
-        }
-        if (k == 0) break;
-        const double e = std::exp(-stack.layers[k - 1].optical_thickness() / cosine);
-        u = {u.reflectance * e * e, u.transmittance * e};
-    }
-    return u;
-}
-
 /// How far in p light gets into each medium: up to its index where there is scattering, or light
 /// from outside; else up to what the neighbours send. What only interfaces could trap has no nodes.
 std::vector<double> reach(const LayerStack& stack, const std::vector<double>& eta) {
@@ -270,11 +245,7 @@ AddingDoublingResult adding_doubling(const LayerStack& stack, std::span<const do
     const int moments =
         options.nodes ? options.nodes : adding_doubling_nodes(stack, options.accuracy);
 
-    std::vector<double> eta{stack.eta_above};
-    for (const Layer& l : stack.layers) eta.push_back(l.eta);
-    const Layer& last = stack.layers.back();
-    eta.push_back(std::isinf(last.thickness) && last.sigma_t() == 0. ? last.eta : stack.eta_below);
-
+    const std::vector<double> eta = media_indices(stack);
     // Wanted directions are nodes without weight, which neither disturb the others nor meet
     // themselves: one for each purpose, even if they are equal.
     constexpr double no_weight = 1e-30;
@@ -323,8 +294,9 @@ AddingDoublingResult adding_doubling(const LayerStack& stack, std::span<const do
             if (in[i] == 0.) continue;
             const AngularNode& node = sorted[std::size_t(i)];
             const double share = node.weight * in[i] / power;
-            t.specular += share * fresnel_dielectric(node.cosine_in(eta[0]), eta[1] / eta[0]);
-            t.unscattered += share * unscattered(stack, eta, node).transmittance;
+            const UnscatteredLight u = unscattered_light(stack, node.cosine_in(eta[0]));
+            t.specular += share * u.specular;
+            t.unscattered += share * u.transmittance;
         }
         return t;
     };

@@ -1,0 +1,391 @@
+#include "nacre/layers/slab_walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "nacre/math/fast_wide.h"
+
+namespace nacre::slab {
+
+namespace {
+
+constexpr int width = 16;  // one register with AVX-512, two with AVX2
+using Pack = Lanes<float, width>;
+using Where = Mask<float, width>;
+constexpr std::uint32_t all_lanes = 0xffffu;
+
+/// Sums of packs in double.
+class WideSum {
+  public:
+    void add(Pack p) { sum_ += __builtin_convertvector(p.v, Doubles); }
+    double total() const {
+        double t = 0.;
+        for (int i = 0; i < width; ++i) t += sum_[i];
+        return t;
+    }
+
+  private:
+    typedef double Doubles __attribute__((vector_size(8 * width)));
+    Doubles sum_{};
+};
+
+Pack positive_sqrt(Pack x) { return sqrt(max(x, Pack(0.f))); }
+Pack copysign(Pack magnitude, Pack sign) { return select(sign < Pack(0.f), -magnitude, magnitude); }
+
+Where from_bits(std::uint32_t set) {
+    const auto lanes = [] {
+        Where::Native v{};
+        for (int i = 0; i < width; ++i) v[i] = 1 << i;
+        return v;
+    }();
+    return {(lanes & int(set)) != 0};
+}
+
+/// WalkLayer of the layer that each lane is in.
+struct LayerPacks {
+    Pack tau, absorb, g, eta_up, eta_down, length, clear, top_bin, depth_bins;
+
+    void set(int lane, const WalkLayer& l) {
+        tau.set(lane, l.tau);
+        absorb.set(lane, l.absorb);
+        g.set(lane, l.g);
+        eta_up.set(lane, l.eta_up);
+        eta_down.set(lane, l.eta_down);
+        length.set(lane, l.length);
+        clear.set(lane, l.clear);
+        top_bin.set(lane, l.top_bin);
+        depth_bins.set(lane, l.depth_bins);
+    }
+};
+
+/// Fresnel's reflectance for the near side's cosine c, and the cosine behind the interface. The
+/// form (eta^2 - 1) + c^2 is exact at eta = 1, where grazing light must pass.
+struct Crossing {
+    Pack reflectance, cosine;
+};
+
+Crossing cross(Pack c, Pack eta) {
+    const Pack one(1.f), e2 = eta * eta;
+    const Pack g = positive_sqrt((eta - one) * (eta + one) + c * c);
+    const Pack b = c + g, q = e2 * c + g, bq = b * q;
+    const Pack s = (c - g) * q, p = (e2 * c - g) * b;
+    const Pack r = Pack(0.5f) * (s * s + p * p) / max(bq * bq, Pack(1e-30f));
+    return {select(g > Pack(0.f), r, one), g / eta};
+}
+
+/// The photons of a batch, `width` at a time; a lane whose photon has ended gets the next one.
+/// `single`: one layer that is not clear. `lateral`: x and y are followed as well as depth.
+template <bool single, bool lateral>
+class Walk {
+  public:
+    Walk(const WalkProblem& problem, const TallyLayout& layout, std::uint64_t key,
+         std::uint64_t photons, double* tally)
+        : problem_(problem),
+          layout_(layout),
+          tally_(tally),
+          bottom_layer_(int(problem.layers.size()) - 1),
+          random_(key),
+          left_(photons) {
+        for (int i = 0; i < width; ++i) first_.set(i, problem.layers[0]);
+        here_ = first_;
+        const WalkLayer& l = problem.layers[0];
+        matched_ = single && l.eta_up == 1.f && l.eta_down == 1.f;
+    }
+
+    void run() {
+        const double photons = double(left_);
+        launch(all_lanes);
+        while (alive_) {
+            fly();
+            collide();
+            if (const std::uint32_t dead = bits(weight_ == Pack(0.f))) launch(dead);
+        }
+        tally_[layout_.reflected] += reflected_.total();
+        tally_[layout_.transmitted] += transmitted_.total();
+        if (single) tally_[layout_.absorbed] += photons - reflected_.total() - transmitted_.total();
+    }
+
+  private:
+    /// New photons for these lanes as long as there are any; the others rest with weight 0.
+    void launch(std::uint32_t dead) {
+        std::uint32_t fresh = dead;
+        while (std::uint64_t(std::popcount(fresh)) > left_) fresh &= fresh - 1;
+        left_ -= std::uint64_t(std::popcount(fresh));
+        alive_ = (all_lanes & ~dead) | fresh;
+        const Where start = from_bits(fresh);
+        weight_ = select(start, Pack(1.f), weight_);
+        z_ = select(start, Pack(0.f), z_);
+        uz_ = select(start, Pack(problem_.cosine), uz_);
+        if constexpr (lateral) {
+            x_ = select(start, Pack(0.f), x_);
+            y_ = select(start, Pack(0.f), y_);
+            ux_ = select(start, Pack(problem_.sine), ux_);
+            uy_ = select(start, Pack(0.f), uy_);
+        }
+        if constexpr (!single) {
+            for_each_bit(dead, [&](int i) {
+                tally_[layout_.absorbed + std::size_t(layer_[i])] += double(entered_[i]);
+            });
+            entered_ = select(from_bits(dead), weight_, entered_);
+            for_each_bit(fresh, [&](int i) { enter(i, 0); });
+        }
+    }
+
+    void enter(int lane, int layer) {
+        layer_[lane] = layer;
+        here_.set(lane, problem_.layers[std::size_t(layer)]);
+        const std::uint32_t bit = 1u << lane;
+        in_top_ = layer == 0 ? in_top_ | bit : in_top_ & ~bit;
+        in_bottom_ = layer == bottom_layer_ ? in_bottom_ | bit : in_bottom_ & ~bit;
+    }
+
+    /// To the next collision, or out. Where a photon is reflected, the rest of its way is mirrored.
+    void fly() {
+        const Pack zero(0.f), way = -fast_log(random_.next());
+        z_ = z_ + uz_ * way;
+        if constexpr (lateral) {
+            x_ = x_ + ux_ * (way * here_.length);
+            y_ = y_ + uy_ * (way * here_.length);
+        }
+        Where gone = weight_ == zero;
+        for (;;) {
+            const Where down = uz_ > zero;
+            // A clear layer has no optical thickness: there, to touch the border is to be beyond
+            // it.
+            const Where out = (single ? (z_ < zero) | (z_ > here_.tau)
+                                      : (down & (z_ >= here_.tau)) | (!down & (z_ <= zero))) &
+                              !gone;
+            if (bits(out) == 0) return;
+            const Pack border = select(down, here_.tau, zero);
+            Where passes = out;
+            Pack cosine = abs(uz_);
+            if constexpr (lateral && !single) {
+                const Pack through = select(out, here_.clear / max(cosine, Pack(1e-20f)), zero);
+                x_ = x_ + ux_ * through;
+                y_ = y_ + uy_ * through;
+            }
+            if (!matched_) {
+                const Crossing c = cross(cosine, select(down, here_.eta_down, here_.eta_up));
+                const Where reflected = random_.next() <= c.reflectance;
+                cosine = c.cosine;
+                passes = out & !reflected;
+            }
+            Where exits = passes;
+            if constexpr (!single) {
+                const std::uint32_t d = bits(down);
+                exits = passes & from_bits((d & in_bottom_) | (~d & in_top_));
+            }
+            if (bits(exits)) {
+                leave(exits, down, border, cosine);
+                gone = gone | exits;
+            }
+            if constexpr (!single) refract(passes & !exits, down, border, cosine);
+            const Where mirrored = out & !passes;
+            z_ = select(mirrored, border + border - z_, z_);
+            uz_ = select(mirrored, -uz_, uz_);
+        }
+    }
+
+    /// Into the next layer, with the optical way that is left.
+    void refract(Where crossing, Where down, Pack border, Pack cosine) {
+        const std::uint32_t lanes = bits(crossing), d = bits(down);
+        if (lanes == 0) return;
+        const Pack rest = (z_ - border) / select(crossing, uz_, Pack(1.f));
+        const Pack eta = select(down, here_.eta_down, here_.eta_up), back = rest * here_.length;
+        for_each_bit(lanes, [&](int i) {
+            tally_[layout_.absorbed + std::size_t(layer_[i])] += double(entered_[i] - weight_[i]);
+            enter(i, layer_[i] + (d >> i & 1 ? 1 : -1));
+        });
+        entered_ = select(crossing, weight_, entered_);
+        const Pack c = max(cosine, Pack(1e-6f));  // a photon that goes nowhere would never end
+        uz_ = select(crossing, select(down, c, -c), uz_);
+        z_ = select(crossing, select(down, Pack(0.f), here_.tau) + uz_ * rest, z_);
+        if constexpr (lateral) {
+            const Pack forth = rest * here_.length / eta - back;
+            x_ = select(crossing, x_ + ux_ * forth, x_);
+            y_ = select(crossing, y_ + uy_ * forth, y_);
+            ux_ = select(crossing, ux_ / eta, ux_);
+            uy_ = select(crossing, uy_ / eta, uy_);
+        }
+    }
+
+    void leave(Where exits, Where down, Pack border, Pack cosine) {
+        const Pack zero(0.f);
+        reflected_.add(select(exits & !down, weight_, zero));
+        transmitted_.add(select(exits & down, weight_, zero));
+        const SlabBins& b = layout_.bins;
+        if (b.radius > 0 || b.angle > 0) {
+            float weight[width], cosines[width], radii[width];
+            weight_.store(weight);
+            cosine.store(cosines);
+            radius((z_ - border) / select(exits, uz_, Pack(1.f)) * here_.length).store(radii);
+            const std::uint32_t d = bits(down);
+            for_each_bit(bits(exits), [&](int i) {
+                const int a = std::min(int(float(b.angle) * std::acos(std::min(cosines[i], 1.f)) *
+                                           float(2. * std::numbers::inv_pi)),
+                                       b.angle - 1);
+                record_exit(d >> i & 1, radii[i], a, double(weight[i]));
+            });
+        }
+        if constexpr (!single) {
+            for_each_bit(bits(exits), [&](int i) {
+                tally_[layout_.absorbed + std::size_t(layer_[i])] +=
+                    double(entered_[i] - weight_[i]);
+            });
+            entered_ = select(exits, zero, entered_);
+        }
+        weight_ = select(exits, zero, weight_);
+    }
+
+    void record_exit(bool below, float radius, int angle, double weight) {
+        const SlabBins& b = layout_.bins;
+        const bool within = radius < float(b.radius);
+        const auto r = std::size_t(within ? radius : 0.f), a = std::size_t(angle);
+        if (within)
+            tally_[(below ? layout_.transmitted_radius : layout_.reflected_radius) + r] += weight;
+        if (b.angle == 0) return;
+        tally_[(below ? layout_.transmitted_angle : layout_.reflected_angle) + a] += weight;
+        if (within && b.pairs)
+            tally_[(below ? layout_.transmitted_radius_angle : layout_.reflected_radius_angle) +
+                   r * std::size_t(b.angle) + a] += weight;
+    }
+
+    /// Distance from the axis in bins, `back` mm before the place where the lanes are.
+    Pack radius(Pack back) const {
+        if constexpr (lateral) {
+            const Pack x = x_ - ux_ * back, y = y_ - uy_ * back;
+            return sqrt(x * x + y * y) * Pack(float(1. / layout_.bins.radius_width));
+        } else {
+            (void)back;
+            return {};
+        }
+    }
+
+    void collide() {
+        const Pack zero(0.f);
+        if (layout_.bins.depth > 0) record_absorption();
+        weight_ = weight_ - weight_ * here_.absorb;  // exact for albedos close to 1, too
+        if (problem_.isotropic)
+            scatter_isotropically();
+        else
+            scatter();
+        const Where light = (weight_ < Pack(problem_.roulette_weight)) & (weight_ > zero);
+        if (bits(light)) {
+            const Where survives = random_.next() <= Pack(1.f / problem_.roulette_gain);
+            const Pack after = select(survives, weight_ * Pack(problem_.roulette_gain), zero);
+            weight_ = select(light, after, weight_);
+        }
+    }
+
+    void record_absorption() {
+        const SlabBins& b = layout_.bins;
+        float weight[width], depths[width], radii[width];
+        (weight_ * here_.absorb).store(weight);
+        (here_.top_bin + z_ * here_.depth_bins).store(depths);
+        radius({}).store(radii);
+        const auto last = std::size_t(b.depth);
+        for_each_bit(bits(weight_ > Pack(0.f)), [&](int i) {
+            if (!(depths[i] < float(last))) return;
+            const auto z = std::size_t(std::max(depths[i], 0.f));
+            tally_[layout_.absorbed_depth + z] += double(weight[i]);
+            if (lateral && b.pairs && radii[i] < float(b.radius))
+                tally_[layout_.absorbed_radius_depth + std::size_t(radii[i]) * last + z] +=
+                    double(weight[i]);
+        });
+    }
+
+    void scatter_isotropically() {
+        uz_ = Pack(2.f) * random_.next() - Pack(1.f);
+        if constexpr (lateral) {
+            const Pack sine = positive_sqrt(Pack(1.f) - uz_ * uz_);
+            const auto circle = fast_unit_circle(random_.next());
+            ux_ = sine * circle.cos;
+            uy_ = sine * circle.sin;
+        }
+    }
+
+    /// By Henyey and Greenstein, with phase_henyey_greenstein.h's form of the inverse.
+    void scatter() {
+        const Pack one(1.f), u = random_.next(), g = here_.g;
+        const Pack m = (one - g) / (one - g + Pack(2.f) * g * u);
+        const Pack less = Pack(2.f) * m * m * (one - u) * (one + g * u);  // 1 - cos
+        const Pack c = one - less, sine2 = less * (Pack(2.f) - less);
+        const auto circle = fast_unit_circle(random_.next());
+        if constexpr (!lateral) {
+            const Pack across = positive_sqrt((one - uz_ * uz_) * sine2) * circle.cos;
+            uz_ = min(max(uz_ * c + across, -one), one);
+        } else {
+            // Two directions across the old one: T. Duff et al. 2017, Building an orthonormal
+            // basis, revisited, JCGT 6(1).
+            const Pack sine = positive_sqrt(sine2), s = sine * circle.cos, t = sine * circle.sin;
+            const Pack sign = copysign(one, uz_), a = -one / (sign + uz_), b = ux_ * uy_ * a;
+            const Pack x = s * (one + sign * ux_ * ux_ * a) + t * b + c * ux_;
+            const Pack y = s * sign * b + t * (sign + uy_ * uy_ * a) + c * uy_;
+            const Pack z = c * uz_ - s * sign * ux_ - t * uy_;
+            // One step of Newton's towards length 1, or rounding would let it drift.
+            const Pack f = Pack(1.5f) - Pack(0.5f) * (x * x + y * y + z * z);
+            ux_ = x * f;
+            uy_ = y * f;
+            uz_ = z * f;
+        }
+    }
+
+    const WalkProblem& problem_;
+    const TallyLayout& layout_;
+    double* tally_;
+    int bottom_layer_;
+    bool matched_ = false;
+
+    RandomLanes<width> random_;
+    LayerPacks first_, here_;
+    Pack z_, uz_, weight_;
+    Pack x_, y_, ux_, uy_;  // mm; lateral only
+    Pack entered_;          // weight on entering the layer, unless single
+    int layer_[width] = {};
+    std::uint32_t in_top_ = 0, in_bottom_ = 0, alive_ = 0;
+    std::uint64_t left_;
+    WideSum reflected_, transmitted_;
+};
+
+template <bool single, bool lateral>
+void walk(const WalkProblem& p, const TallyLayout& l, std::uint64_t key, std::uint64_t photons,
+          double* tally) {
+    Walk<single, lateral>(p, l, key, photons, tally).run();
+}
+
+}  // namespace
+
+TallyLayout::TallyLayout(const SlabBins& b, std::size_t layer_count)
+    : bins(b), layers(layer_count) {
+    const auto r = std::size_t(b.radius), z = std::size_t(b.depth), a = std::size_t(b.angle);
+    const std::size_t pairs = b.pairs ? 1 : 0;
+    size = 0;
+    const auto reserve = [&](std::size_t& begin, std::size_t count) {
+        begin = size;
+        size += count;
+    };
+    reserve(reflected, 1);
+    reserve(transmitted, 1);
+    reserve(absorbed, layers);
+    reserve(reflected_radius, r);
+    reserve(transmitted_radius, r);
+    reserve(reflected_angle, a);
+    reserve(transmitted_angle, a);
+    reserve(absorbed_depth, z);
+    reserve(absorbed_radius_depth, pairs * r * z);
+    reserve(reflected_radius_angle, pairs * r * a);
+    reserve(transmitted_radius_angle, pairs * r * a);
+}
+
+void walk_batch(const WalkProblem& problem, const TallyLayout& layout, std::uint64_t key,
+                std::uint64_t photons, double* tally) {
+    const bool single = problem.layers.size() == 1 && problem.layers[0].length > 0.f;
+    const bool lateral = layout.bins.radius > 0;
+    const auto f = single ? (lateral ? walk<true, true> : walk<true, false>)
+                          : (lateral ? walk<false, true> : walk<false, false>);
+    f(problem, layout, key, photons, tally);
+}
+
+}  // namespace nacre::slab
