@@ -39,8 +39,10 @@ struct SlabMonteCarloOptions {
     double cosine = 1.;  ///< of incidence, in the medium above, in (0, 1]
     SlabBins bins;
     /// Photons lighter than this share of a launched one survive with probability 1 / `gain` and
-    /// become `gain` times as heavy.
-    double roulette_weight = 1e-4, roulette_gain = 10.;
+    /// become `gain` times as heavy. MCML has 1e-4 and 10; the defaults reach the same error of the
+    /// totals of a half space of albedo 0.9 in two fifths of the time. Profiles at great depths
+    /// want a lower threshold.
+    double roulette_weight = 0.1, roulette_gain = 5.;
 };
 
 struct Estimate {

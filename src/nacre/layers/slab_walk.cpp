@@ -5,75 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "nacre/math/fast_wide.h"
+#include "nacre/layers/slab_packs.h"
 
 namespace nacre::slab {
 
 namespace {
-
-constexpr int width = 16;  // one register with AVX-512, two with AVX2
-using Pack = Lanes<float, width>;
-using Where = Mask<float, width>;
-constexpr std::uint32_t all_lanes = 0xffffu;
-
-/// Sums of packs in double.
-class WideSum {
-  public:
-    void add(Pack p) { sum_ += __builtin_convertvector(p.v, Doubles); }
-    double total() const {
-        double t = 0.;
-        for (int i = 0; i < width; ++i) t += sum_[i];
-        return t;
-    }
-
-  private:
-    typedef double Doubles __attribute__((vector_size(8 * width)));
-    Doubles sum_{};
-};
-
-Pack positive_sqrt(Pack x) { return sqrt(max(x, Pack(0.f))); }
-Pack copysign(Pack magnitude, Pack sign) { return select(sign < Pack(0.f), -magnitude, magnitude); }
-
-Where from_bits(std::uint32_t set) {
-    const auto lanes = [] {
-        Where::Native v{};
-        for (int i = 0; i < width; ++i) v[i] = 1 << i;
-        return v;
-    }();
-    return {(lanes & int(set)) != 0};
-}
-
-/// WalkLayer of the layer that each lane is in.
-struct LayerPacks {
-    Pack tau, absorb, g, eta_up, eta_down, length, clear, top_bin, depth_bins;
-
-    void set(int lane, const WalkLayer& l) {
-        tau.set(lane, l.tau);
-        absorb.set(lane, l.absorb);
-        g.set(lane, l.g);
-        eta_up.set(lane, l.eta_up);
-        eta_down.set(lane, l.eta_down);
-        length.set(lane, l.length);
-        clear.set(lane, l.clear);
-        top_bin.set(lane, l.top_bin);
-        depth_bins.set(lane, l.depth_bins);
-    }
-};
-
-/// Fresnel's reflectance for the near side's cosine c, and the cosine behind the interface. The
-/// form (eta^2 - 1) + c^2 is exact at eta = 1, where grazing light must pass.
-struct Crossing {
-    Pack reflectance, cosine;
-};
-
-Crossing cross(Pack c, Pack eta) {
-    const Pack one(1.f), e2 = eta * eta;
-    const Pack g = positive_sqrt((eta - one) * (eta + one) + c * c);
-    const Pack b = c + g, q = e2 * c + g, bq = b * q;
-    const Pack s = (c - g) * q, p = (e2 * c - g) * b;
-    const Pack r = Pack(0.5f) * (s * s + p * p) / max(bq * bq, Pack(1e-30f));
-    return {select(g > Pack(0.f), r, one), g / eta};
-}
 
 /// The photons of a batch, `width` at a time; a lane whose photon has ended gets the next one.
 /// `single`: one layer that is not clear. `lateral`: x and y are followed as well as depth.
@@ -87,21 +23,25 @@ class Walk {
           tally_(tally),
           bottom_layer_(int(problem.layers.size()) - 1),
           random_(key),
+          photons_(photons),
           left_(photons) {
         for (int i = 0; i < width; ++i) first_.set(i, problem.layers[0]);
         here_ = first_;
         const WalkLayer& l = problem.layers[0];
         matched_ = single && l.eta_up == 1.f && l.eta_down == 1.f;
+        launch(all_lanes);
     }
 
-    void run() {
-        const double photons = double(left_);
-        launch(all_lanes);
-        while (alive_) {
-            fly();
-            collide();
-            if (const std::uint32_t dead = bits(weight_ == Pack(0.f))) launch(dead);
-        }
+    bool alive() const { return alive_ != 0; }
+
+    [[gnu::always_inline]] void step() {
+        fly();
+        collide();
+        if (const std::uint32_t dead = bits(weight_ == Pack(0.f))) launch(dead);
+    }
+
+    void finish() {
+        const double photons = double(photons_);
         tally_[layout_.reflected] += reflected_.total();
         tally_[layout_.transmitted] += transmitted_.total();
         if (single) tally_[layout_.absorbed] += photons - reflected_.total() - transmitted_.total();
@@ -114,7 +54,7 @@ class Walk {
         while (std::uint64_t(std::popcount(fresh)) > left_) fresh &= fresh - 1;
         left_ -= std::uint64_t(std::popcount(fresh));
         alive_ = (all_lanes & ~dead) | fresh;
-        const Where start = from_bits(fresh);
+        const Where start = lanes_of<width>(fresh);
         weight_ = select(start, Pack(1.f), weight_);
         z_ = select(start, Pack(0.f), z_);
         uz_ = select(start, Pack(problem_.cosine), uz_);
@@ -128,7 +68,7 @@ class Walk {
             for_each_bit(dead, [&](int i) {
                 tally_[layout_.absorbed + std::size_t(layer_[i])] += double(entered_[i]);
             });
-            entered_ = select(from_bits(dead), weight_, entered_);
+            entered_ = select(lanes_of<width>(dead), weight_, entered_);
             for_each_bit(fresh, [&](int i) { enter(i, 0); });
         }
     }
@@ -175,7 +115,7 @@ class Walk {
             Where exits = passes;
             if constexpr (!single) {
                 const std::uint32_t d = bits(down);
-                exits = passes & from_bits((d & in_bottom_) | (~d & in_top_));
+                exits = passes & lanes_of<width>((d & in_bottom_) | (~d & in_top_));
             }
             if (bits(exits)) {
                 leave(exits, down, border, cosine);
@@ -256,7 +196,7 @@ class Walk {
     Pack radius(Pack back) const {
         if constexpr (lateral) {
             const Pack x = x_ - ux_ * back, y = y_ - uy_ * back;
-            return sqrt(x * x + y * y) * Pack(float(1. / layout_.bins.radius_width));
+            return fast_sqrt(x * x + y * y) * Pack(float(1. / layout_.bins.radius_width));
         } else {
             (void)back;
             return {};
@@ -345,14 +285,22 @@ class Walk {
     Pack entered_;          // weight on entering the layer, unless single
     int layer_[width] = {};
     std::uint32_t in_top_ = 0, in_bottom_ = 0, alive_ = 0;
-    std::uint64_t left_;
+    std::uint64_t photons_, left_;
     WideSum reflected_, transmitted_;
 };
 
 template <bool single, bool lateral>
 void walk(const WalkProblem& p, const TallyLayout& l, std::uint64_t key, std::uint64_t photons,
           double* tally) {
-    Walk<single, lateral>(p, l, key, photons, tally).run();
+    // Two packs in turn: while one waits for the result of an instruction, the other computes.
+    Walk<single, lateral> a(p, l, stream_key(key, 0), photons / 2, tally);
+    Walk<single, lateral> b(p, l, stream_key(key, 1), photons - photons / 2, tally);
+    while (a.alive() || b.alive()) {
+        a.step();
+        b.step();
+    }
+    a.finish();
+    b.finish();
 }
 
 }  // namespace
