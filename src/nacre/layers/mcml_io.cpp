@@ -202,7 +202,7 @@ std::vector<McmlRun> read_mci(const std::filesystem::path& file) {
 
 std::string mci_text(const std::vector<McmlRun>& runs) {
     std::string s = fmt::format("1.0\t# file version\n{}\t# runs\n", runs.size());
-    for (const McmlRun& r : runs) s += "\n" + run_text(r);
+    for (const McmlRun& r : runs) s += fmt::format("\n{}", run_text(r));
     return s;
 }
 

@@ -149,7 +149,8 @@ SlabMonteCarloResult slab_monte_carlo(const LayerStack& stack,
     result.totals = {beam.specular + reflected.mean, transmitted.mean, 0., beam.specular,
                      beam.transmittance};
     result.totals.absorptance = 1. - result.totals.reflectance - result.totals.transmittance;
-    result.error = {reflected.error, transmitted.error, 0., 0., 0.};
+    result.error = {reflected.error, transmitted.error, sums(layout.all_absorbed, enter).error, 0.,
+                    0.};
     for (std::size_t i = 0; i < layout.layers; ++i)
         result.absorbed.push_back(sums(layout.absorbed + i, enter));
 

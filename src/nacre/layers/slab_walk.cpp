@@ -44,7 +44,9 @@ class Walk {
         const double photons = double(photons_);
         tally_[layout_.reflected] += reflected_.total();
         tally_[layout_.transmitted] += transmitted_.total();
-        if (single) tally_[layout_.absorbed] += photons - reflected_.total() - transmitted_.total();
+        const double absorbed = photons - reflected_.total() - transmitted_.total();
+        tally_[layout_.all_absorbed] += absorbed;
+        if (single) tally_[layout_.absorbed] += absorbed;
     }
 
   private:
@@ -83,12 +85,9 @@ class Walk {
 
     /// To the next collision, or out. Where a photon is reflected, the rest of its way is mirrored.
     void fly() {
-        const Pack zero(0.f), way = -fast_log(random_.next());
+        const Pack zero(0.f);
+        Pack way = -fast_log(random_.next()), from = z_;
         z_ = z_ + uz_ * way;
-        if constexpr (lateral) {
-            x_ = x_ + ux_ * (way * here_.length);
-            y_ = y_ + uy_ * (way * here_.length);
-        }
         Where gone = weight_ == zero;
         for (;;) {
             const Where down = uz_ > zero;
@@ -97,15 +96,20 @@ class Walk {
             const Where out = (single ? (z_ < zero) | (z_ > here_.tau)
                                       : (down & (z_ >= here_.tau)) | (!down & (z_ <= zero))) &
                               !gone;
-            if (bits(out) == 0) return;
+            if (bits(out) == 0) break;
             const Pack border = select(down, here_.tau, zero);
-            Where passes = out;
             Pack cosine = abs(uz_);
-            if constexpr (lateral && !single) {
-                const Pack through = select(out, here_.clear / max(cosine, Pack(1e-20f)), zero);
-                x_ = x_ + ux_ * through;
-                y_ = y_ + uy_ * through;
+            if constexpr (lateral) {
+                const Pack steep = select(out, uz_, Pack(1.f));
+                const Pack part = select(out, (border - from) / steep, zero);
+                Pack length = part * here_.length;
+                if constexpr (!single)
+                    length = length + select(out, here_.clear / abs(steep), zero);
+                advance(length);
+                way = way - part;
+                from = select(out, border, from);
             }
+            Where passes = out;
             if (!matched_) {
                 const Crossing c = cross(cosine, select(down, here_.eta_down, here_.eta_up));
                 const Where reflected = random_.next() <= c.reflectance;
@@ -118,22 +122,33 @@ class Walk {
                 exits = passes & lanes_of<width>((d & in_bottom_) | (~d & in_top_));
             }
             if (bits(exits)) {
-                leave(exits, down, border, cosine);
+                leave(exits, down, cosine);
                 gone = gone | exits;
+                way = select(exits, zero, way);
             }
-            if constexpr (!single) refract(passes & !exits, down, border, cosine);
             const Where mirrored = out & !passes;
             z_ = select(mirrored, border + border - z_, z_);
             uz_ = select(mirrored, -uz_, uz_);
+            if constexpr (!single) {
+                const Where crossing = passes & !exits;
+                const Pack rest = lateral ? way : (z_ - border) / select(crossing, uz_, Pack(1.f));
+                refract(crossing, down, cosine, rest);
+                from = select(crossing, select(down, zero, here_.tau), from);
+            }
         }
+        if constexpr (lateral) advance(way * here_.length);
+    }
+
+    void advance(Pack length) {
+        x_ = x_ + ux_ * length;
+        y_ = y_ + uy_ * length;
     }
 
     /// Into the next layer, with the optical way that is left.
-    void refract(Where crossing, Where down, Pack border, Pack cosine) {
+    void refract(Where crossing, Where down, Pack cosine, Pack rest) {
         const std::uint32_t lanes = bits(crossing), d = bits(down);
         if (lanes == 0) return;
-        const Pack rest = (z_ - border) / select(crossing, uz_, Pack(1.f));
-        const Pack eta = select(down, here_.eta_down, here_.eta_up), back = rest * here_.length;
+        const Pack eta = select(down, here_.eta_down, here_.eta_up);
         for_each_bit(lanes, [&](int i) {
             tally_[layout_.absorbed + std::size_t(layer_[i])] += double(entered_[i] - weight_[i]);
             enter(i, layer_[i] + (d >> i & 1 ? 1 : -1));
@@ -143,15 +158,12 @@ class Walk {
         uz_ = select(crossing, select(down, c, -c), uz_);
         z_ = select(crossing, select(down, Pack(0.f), here_.tau) + uz_ * rest, z_);
         if constexpr (lateral) {
-            const Pack forth = rest * here_.length / eta - back;
-            x_ = select(crossing, x_ + ux_ * forth, x_);
-            y_ = select(crossing, y_ + uy_ * forth, y_);
             ux_ = select(crossing, ux_ / eta, ux_);
             uy_ = select(crossing, uy_ / eta, uy_);
         }
     }
 
-    void leave(Where exits, Where down, Pack border, Pack cosine) {
+    void leave(Where exits, Where down, Pack cosine) {
         const Pack zero(0.f);
         reflected_.add(select(exits & !down, weight_, zero));
         transmitted_.add(select(exits & down, weight_, zero));
@@ -160,7 +172,7 @@ class Walk {
             float weight[width], cosines[width], radii[width];
             weight_.store(weight);
             cosine.store(cosines);
-            radius((z_ - border) / select(exits, uz_, Pack(1.f)) * here_.length).store(radii);
+            radius().store(radii);
             const std::uint32_t d = bits(down);
             for_each_bit(bits(exits), [&](int i) {
                 const int a = std::min(int(float(b.angle) * std::acos(std::min(cosines[i], 1.f)) *
@@ -192,15 +204,10 @@ class Walk {
                    r * std::size_t(b.angle) + a] += weight;
     }
 
-    /// Distance from the axis in bins, `back` mm before the place where the lanes are.
-    Pack radius(Pack back) const {
-        if constexpr (lateral) {
-            const Pack x = x_ - ux_ * back, y = y_ - uy_ * back;
-            return fast_sqrt(x * x + y * y) * Pack(float(1. / layout_.bins.radius_width));
-        } else {
-            (void)back;
-            return {};
-        }
+    /// Distance from the axis, in bins.
+    Pack radius() const {
+        if constexpr (!lateral) return {};
+        return fast_sqrt(x_ * x_ + y_ * y_) * Pack(float(1. / layout_.bins.radius_width));
     }
 
     void collide() {
@@ -224,7 +231,7 @@ class Walk {
         float weight[width], depths[width], radii[width];
         (weight_ * here_.absorb).store(weight);
         (here_.top_bin + z_ * here_.depth_bins).store(depths);
-        radius({}).store(radii);
+        radius().store(radii);
         const auto last = std::size_t(b.depth);
         for_each_bit(bits(weight_ > Pack(0.f)), [&](int i) {
             if (!(depths[i] < float(last))) return;
@@ -316,6 +323,7 @@ TallyLayout::TallyLayout(const SlabBins& b, std::size_t layer_count)
     };
     reserve(reflected, 1);
     reserve(transmitted, 1);
+    reserve(all_absorbed, 1);
     reserve(absorbed, layers);
     reserve(reflected_radius, r);
     reserve(transmitted_radius, r);

@@ -22,7 +22,7 @@ struct WalkLayer {
 struct TallyLayout {
     SlabBins bins;
     std::size_t layers;
-    std::size_t reflected, transmitted, absorbed;
+    std::size_t reflected, transmitted, all_absorbed, absorbed;
     std::size_t reflected_radius, transmitted_radius, reflected_angle, transmitted_angle;
     std::size_t absorbed_depth, absorbed_radius_depth;
     std::size_t reflected_radius_angle, transmitted_radius_angle;
