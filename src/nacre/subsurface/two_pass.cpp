@@ -12,6 +12,7 @@
 #include "nacre/math/error.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/profile_tables.h"
+#include "nacre/spectrum/cie.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre {
@@ -34,6 +35,15 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Daylight in the lanes of a path; 1 in RGB bands. Irradiance is interpolated between bands as a
+/// multiple of it: the lines of the sun are in most scenes' light, and narrower than bands.
+Spectral daylight(const Wavelengths& w) {
+    if (w.mode == ColorMode::rgb_bands) return Spectral(1.f);
+    Spectral r;
+    for (int i = 0; i < Spectral::size; ++i) r.set(i, cie_d65(w.lambda[i]));
+    return r;
+}
+
 /// The points of a shape as the ray scene knows them.
 struct ShapePoints {
     std::vector<SurfacePoint> at;
@@ -41,12 +51,18 @@ struct ShapePoints {
     std::vector<float> area;
 };
 
+PointMethod point_method(std::string_view name) {
+    return name == "repulsion" ? PointMethod::repulsion
+           : name == "random"  ? PointMethod::random
+                               : PointMethod::elimination;
+}
+
 ShapePoints spread_points(const TechniqueInput& in, double spacing) {
     const RayScene& rays = in.scene.rays;
     const Mesh* mesh = rays.mesh(in.shape);
     std::optional<Mesh> made;
     if (!mesh) {
-        made = tessellate(*rays.primitive(in.shape), spacing);
+        made = tessellate(*rays.primitive(in.shape));
         mesh = &*made;
     }
     const SurfacePointSet set =
@@ -83,7 +99,7 @@ std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
                     in.light->reflected(points.at[i], entry, {0.f, 0.f, 1.f}, sampler, w, counts);
             }
             // `reflected` is irradiance over pi.
-            sum *= Spectral(float(pi) / float(samples) * points.area[i]);
+            sum *= Spectral(float(pi) / float(samples) * points.area[i]) / daylight(w);
             for (int b = 4 * g; b < std::min(4 * g + 4, bands.count()); ++b)
                 power[i * std::size_t(bands.count()) + std::size_t(b)] = sum[b - 4 * g];
         }
@@ -98,7 +114,7 @@ Translucency::Emergence TwoPass::emerge(const SurfacePoint& exit, const Vec3f& w
     float exitance[IrradianceTree::max_bands];
     tree_.gather(exit.p, kernels_, exitance);
     Emergence result;
-    result.radiance = bands_.at(exitance, w) * Spectral(exit_scale_ * float(1. / pi));
+    result.radiance = bands_.at(exitance, w) * daylight(w) * Spectral(exit_scale_ * float(1. / pi));
     if (single_) result.radiance += single_->radiance(exit, wo, sampler, w, counts);
     return result;
 }
