@@ -1,6 +1,6 @@
 #pragma once
 // The built-in sculptures, modelled for light that passes through them: a bust with thin, upright
-// ears and a pleated collar, and a pot for tea, hollow, with walls of 5 mm.
+// ears and a pleated collar, and a pot for tea.
 #include <string_view>
 
 #include "nacre/geometry/mesh.h"

@@ -1,4 +1,4 @@
-// A pot for tea: a hollow body with a lid, a spout and a handle, of the thickness of porcelain.
+// A pot for tea, cast solid: body, lid, spout and handle.
 #include "nacre/geometry/figure.h"
 #include "nacre/geometry/sdf.h"
 
@@ -7,20 +7,11 @@ using namespace sdf;
 
 namespace {
 
-constexpr float wall = 5.f;  // mm
-
-// The full body, flattened below and drawn in to the rim.
+// Flattened below and drawn in to the rim.
 float body(const Point3f& p) {
     const float belly = ellipsoid(p - Vec3f(0, 58, 0), {74, 56, 74});
     const float foot = rounded_cylinder(p - Vec3f(0, 6, 0), 44, 6, 3);
     return smooth_union(smooth_intersection(belly, 6.f - p.y, 8), foot, 10);
-}
-
-// Where the tea would be.
-float cavity(const Point3f& p) {
-    return smooth_intersection(
-        ellipsoid(p - Vec3f(0, 58, 0), Vec3f(74, 56, 74) - Vec3f(wall, wall, wall)),
-        6.f + wall - p.y, 8);
 }
 
 float lid(const Point3f& p) {
@@ -35,13 +26,12 @@ float lid(const Point3f& p) {
 
 float pot_distance(const Point3f& p) {
     const float spout = bezier_tube(p, {58, 40, 0}, {104, 44, 0}, {112, 104, 0}, 17, 12, 8);
-    const float mouth = bezier_tube(p, {66, 44, 0}, {104, 48, 0}, {116, 116, 0}, 9, 7, 5);
     const float handle = bezier_tube(p, {-60, 88, 0}, {-150, 104, 0}, {-62, 30, 0}, 7, 6, 7);
     float d = smooth_union(body(p), spout, 14);
     d = smooth_union(d, handle, 10);
     d = smooth_union(d, lid(p), 2);
-    // Hollowed last, so that no joint fills the inside again.
-    return smooth_subtraction(smooth_subtraction(d, mouth, 2), cavity(p), 2);
+    // A dent for the mouth of the spout.
+    return smooth_subtraction(d, capsule(p, {111, 100, 0}, {114, 116, 0}, 5), 3);
 }
 
 Box3f pot_box() { return {{-128, -6, -84}, {132, 148, 84}}; }

@@ -43,9 +43,10 @@ void SurfacePath::follow() {
 
 bool SurfacePath::at_surface(const SurfacePoint& at) {
     const Vec3f wo = at.shading.to_local(-ray_.d);
-    if (!tracer_.below_.empty() && wo.z > 0.f)
+    if (!tracer_.below_.empty())
         if (const Translucency* below = tracer_.below_[at.shape].get())
-            return at_translucent(at, *below, wo);
+            // From below one would look out through the boundary, as if the object were empty.
+            return wo.z > 0.f && at_translucent(at, *below, wo);
     return scatter(at, *scene_.shapes[at.shape].material, wo);
 }
 
@@ -105,8 +106,7 @@ bool SurfacePath::scatter(const SurfacePoint& at, const Material& material, cons
 }
 
 bool SurfacePath::goes_on() {
-    if (depth_ >= tracer_.rr_depth_ &&
-        !survives(throughput_, eta_, sampler_.next1d(), throughput_))
+    if (depth_ >= tracer_.rr_depth_ && !survives(throughput_, eta_, sampler_.next1d(), throughput_))
         return false;
     ++depth_;
     return true;

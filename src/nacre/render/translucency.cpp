@@ -4,21 +4,32 @@
 
 namespace nacre {
 
-Spectral Entry::eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
-    return Spectral(
-        wi.z > 0.f ? (1.f - fresnel_dielectric(wi.z, eta_)) * cosine_hemisphere_pdf(wi.z) : 0.f);
+namespace {
+
+// Where interpolated normals lean over the edge of the surface, directions above them may lead
+// inside.
+bool is_outside(const SurfacePoint& at, const Vec3f& wi) {
+    return wi.z > 0.f && dot(at.shading.to_world(wi), at.ng) > 0.f;
+}
+
+}  // namespace
+
+Spectral Entry::eval(const SurfacePoint& at, const Vec3f&, const Vec3f& wi,
+                     const Wavelengths&) const {
+    if (!is_outside(at, wi)) return Spectral(0.f);
+    return Spectral((1.f - fresnel_dielectric(wi.z, eta_)) * cosine_hemisphere_pdf(wi.z));
 }
 
 float Entry::pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
     return cosine_hemisphere_pdf(wi.z);
 }
 
-std::optional<MaterialSample> Entry::sample(const SurfacePoint&, const Vec3f&, float, Vec2f u2,
+std::optional<MaterialSample> Entry::sample(const SurfacePoint& at, const Vec3f&, float, Vec2f u2,
                                             const Wavelengths&) const {
     MaterialSample s;
     s.wi = square_to_cosine_hemisphere(u2);
     s.pdf = cosine_hemisphere_pdf(s.wi.z);
-    if (!(s.pdf > 0.f)) return std::nullopt;
+    if (!(s.pdf > 0.f) || !is_outside(at, s.wi)) return std::nullopt;
     s.weight = Spectral(1.f - fresnel_dielectric(s.wi.z, eta_));
     return s;
 }

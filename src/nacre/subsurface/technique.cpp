@@ -71,13 +71,40 @@ auto at_place(const SubsurfaceSettings& settings, F&& f) {
     }
 }
 
+std::shared_ptr<const ProfileTables> tables_of(const TechniqueInput& in) {
+    return std::make_shared<ProfileTables>(*in.scene.shapes[in.shape].interior, in.eta,
+                                           in.settings.profile, Bands(in.scene.mode));
+}
+
+/// What a translucent shape is to light on its way to another place: a Lambert surface that returns
+/// what the boundary and the medium do on average. Its mirror images of lamps would be found by one
+/// path in thousands and show as bright points.
+class StandIn final : public Translucency {
+  public:
+    StandIn(std::shared_ptr<const ProfileTables> profile, float mirror, float below)
+        : Translucency(1.f), profile_(std::move(profile)), mirror_(mirror), below_(below) {}
+
+    Emergence emerge(const SurfacePoint& exit, const Vec3f&, Sampler&, const Wavelengths& w,
+                     RayCounts&) const override {
+        return {Spectral(0.f), exit, Spectral(mirror_) + Spectral(below_) * profile_->total(w)};
+    }
+
+  private:
+    std::shared_ptr<const ProfileTables> profile_;
+    float mirror_, below_;
+};
+
+TranslucencyPtr make_stand_in(const TechniqueInput& in) {
+    const float mirror = float(diffuse_reflectance_external(in.eta)), enters = 1.f - mirror;
+    return std::make_shared<StandIn>(tables_of(in), mirror, enters * enters * in.exit_scale);
+}
+
 class TechniqueIntegrator final : public Integrator {
   public:
     explicit TechniqueIntegrator(const Scene& scene) {
         Translucencies local(scene.shapes.size());
         for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
-            if (scene.shapes[i].subsurface)
-                local[i] = make(scene, i, make_local_reflection, nullptr);
+            if (scene.shapes[i].subsurface) local[i] = make(scene, i, make_stand_in, nullptr);
         // Its paths are averaged over, so they may end early: an object that stands on a floor sees
         // light go to and fro in the gap for ever.
         const PathTracer light(scene, local, 2);
@@ -118,11 +145,6 @@ class TechniqueIntegrator final : public Integrator {
     std::unique_ptr<PathTracer> tracer_;
     Statistics statistics_;
 };
-
-std::shared_ptr<const ProfileTables> tables_of(const TechniqueInput& in) {
-    return std::make_shared<ProfileTables>(*in.scene.shapes[in.shape].interior, in.eta,
-                                           in.settings.profile, Bands(in.scene.mode));
-}
 
 }  // namespace
 
