@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""The translucent experiments of the classic papers, measured in one run.
+
+    bench/translucency.py marble [--quick]   Jensen et al. 2001: one figure with a BRDF, a BSSRDF, complete simulation
+    bench/translucency.py points             Jensen and Buhler 2002: cost against the number of surface points
+    bench/translucency.py bunny              the benchmark bunny (../shared/bench): every technique's mean and error
+
+Pictures and references are kept in build/translucency. Prints tables of CPU seconds and of relMSE (bench/relmse.py)
+against complete simulation with another seed.
+"""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+
+import relmse
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+OUT = ROOT / "build" / "translucency"
+NACRE = ROOT / "build" / "release" / "nacre"
+
+
+def render(scene, name, *options):
+    """CPU seconds and statistics of a render; the picture goes to OUT/name.exr."""
+    command = [NACRE, "render", scene, "-o", OUT / f"{name}.exr", "--quiet", "--json", *options]
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"{' '.join(map(str, command))}\n{done.stderr[-2000:]}")
+    r = json.loads(done.stdout)
+    r["cpu"] = r["cpu_seconds"] + r["precompute_cpu_seconds"]
+    return r
+
+
+def compare(name, reference, mask=None):
+    """Mean RGB over the mask, and relMSE."""
+    _, _, picture = relmse.read_exr(OUT / f"{name}.exr")
+    _, _, truth = relmse.read_exr(OUT / f"{reference}.exr")
+    inside = [True] * len(picture["G"])
+    if mask:
+        _, _, m = relmse.read_exr(OUT / f"{mask}.exr")
+        inside = [g > 0.5 for g in m["G"]]
+    means, errors = [], []
+    for c in "RGB":
+        pairs = [(p, t) for p, t, i in zip(picture[c], truth[c], inside) if i]
+        means.append((sum(p for p, _ in pairs) / len(pairs), sum(t for _, t in pairs) / len(pairs)))
+        errors += [(p - t) ** 2 / (t * t + 0.01) for p, t in pairs]
+    errors.sort()
+    keep = errors[:len(errors) - len(errors) // 1000]
+    return means, sum(keep) / len(keep)
+
+
+def marble(quick):
+    scene = ROOT / "gallery" / "translucency"
+    spp, complete, reference = (8, 16, 32) if quick else (32, 64, 256)
+    render(scene / "03_marble_complete.xml", "marble_reference", "-D", f"spp={reference}", "--seed", 77)
+    rows = []
+    for title, file, samples in [("BRDF", "01_marble_brdf", spp), ("BSSRDF, two passes", "02_marble_two_pass", spp),
+                                 ("complete simulation", "03_marble_complete", complete)]:
+        r = render(scene / f"{file}.xml", file, "-D", f"spp={samples}")
+        means, error = compare(file, "marble_reference")
+        rows.append((title, samples, r["cpu"], error, [p / t for p, t in means]))
+    print(f"{'marble, lit from behind':<24} {'spp':>4} {'CPU s':>8} {'relMSE':>9}  mean over complete, RGB")
+    for title, samples, cpu, error, ratio in rows:
+        print(f"{title:<24} {samples:>4} {cpu:>8.1f} {error:>9.4f}  " + " ".join(f"{x:.3f}" for x in ratio))
+    print("CPU relative to the BRDF: " + " : ".join(f"{cpu / rows[0][2]:.1f}" for _, _, cpu, _, _ in rows) +
+          "   (Jensen et al. 2001, minutes: 2 : 5 : 1250 = 1 : 2.5 : 625)")
+    # Complete simulation at the two passes' error: error falls as one over the samples.
+    to_same = rows[2][2] * rows[2][3] / rows[1][3]
+    print(f"complete simulation to the error of two passes: {to_same:.1f} CPU s, {to_same / rows[1][2]:.1f} times theirs")
+
+
+def points(_):
+    scene = ROOT / "gallery" / "translucency" / "02_marble_two_pass.xml"
+    print(f"{'spacing':>8} {'points':>8} {'points s':>9} {'irradiance s':>12} {'tree s':>8} {'render CPU s':>12} {'MB':>6}")
+    rows = []
+    for spacing in (8, 5.6, 4, 2.8, 2, 1.4, 1):
+        r = render(scene, "points", "--technique", "two_pass", "--set", f"spacing={spacing}", "--set",
+                   "irradiance_samples=8", "-D", "spp=4")
+        s = r["statistics"]
+        rows.append((s["points"], s["points_seconds"], s["irradiance_seconds"], s["tree_seconds"], r["cpu_seconds"]))
+        print(f"{spacing:>8} {s['points']:>8.0f} {s['points_seconds']:>9.2f} {s['irradiance_seconds']:>12.2f} "
+              f"{s['tree_seconds']:>8.3f} {r['cpu_seconds']:>12.2f} {s['tree_bytes'] / 1e6:>6.1f}")
+    for i, name in enumerate(["points", "irradiance", "tree", "render"], 1):
+        xs = [math.log(r[0]) for r in rows]
+        ys = [math.log(max(r[i], 1e-6)) for r in rows]
+        mx, my = sum(xs) / len(xs), sum(ys) / len(ys)
+        slope = sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / sum((x - mx) ** 2 for x in xs)
+        print(f"exponent of {name:<11} {slope:.2f}")
+    with open(OUT / "points.csv", "w") as file:
+        file.write("points,points_s,irradiance_s,tree_s,render_cpu_s\n")
+        file.writelines(",".join(f"{x:g}" for x in r) + "\n" for r in rows)
+
+
+def bunny(_):
+    shared = ROOT / ".." / "shared" / "bench"
+    scene = shared / "marble_bunny.xml"
+    text = scene.read_text().replace("bunny_watertight.obj", str((shared / "bunny_watertight.obj").resolve()))
+    # The mask: a bunny that shines in the dark.
+    a = text.index('<bsdf type="dielectric">')
+    b = text.index("</shape>", a)
+    mask = text[:a] + '<emitter type="area"><rgb name="radiance" value="1"/></emitter>' + text[b:]
+    mask = mask.replace('value="20, 20, 20"', 'value="0"').replace('value="0.3, 0.3, 0.3"', 'value="0"')
+    mask = mask.replace('name="max_depth" value="-1"', 'name="max_depth" value="1"').replace('"volpath"', '"path"')
+    (OUT / "mask.xml").write_text(mask)
+    render(OUT / "mask.xml", "mask", "--spp", 16)
+    if not (OUT / "bunny_reference.exr").exists():
+        render(scene, "bunny_reference", "--spp", 128, "--seed", 77)
+    print(f"{'technique':<34} {'spp':>4} {'CPU s':>7} {'before':>7} {'relMSE':>8}  mean over complete, RGB")
+    for title, samples, options in [
+            ("brdf, dipole", 64, ["--technique", "brdf"]),
+            ("two_pass, dipole", 4, ["--technique", "two_pass"]),
+            ("two_pass, dipole, 121,759 points", 4, ["--technique", "two_pass", "--set", "spacing=1.45"]),
+            ("two_pass, dipole, exit as in paper", 4, ["--technique", "two_pass", "--set", "exit_fresnel=paper"]),
+            ("two_pass, dipole", 64, ["--technique", "two_pass", "--set", "irradiance_samples=64"]),
+            ("two_pass, better dipole + single", 64, ["--technique", "two_pass", "--profile", "better_dipole"]),
+            ("surface, dipole", 64, ["--technique", "surface"]),
+            ("surface, better dipole + single", 64, ["--technique", "surface", "--profile", "better_dipole"]),
+            ("surface, quantised diff. + single", 64, ["--technique", "surface", "--profile", "quantised_diffusion"]),
+            ("surface, beams + single", 64, ["--technique", "surface", "--profile", "photon_beam_diffusion"]),
+            ("surface, normalised diffusion", 64, ["--technique", "surface", "--profile", "normalised_diffusion"]),
+            ("complete simulation", 16, ["--technique", "volpath"])]:
+        r = render(scene, "bunny", "--spp", samples, *options)
+        means, error = compare("bunny", "bunny_reference", "mask")
+        print(f"{title:<34} {samples:>4} {r['cpu']:>7.1f} {r['precompute_cpu_seconds']:>7.1f} {error:>8.4f}  " +
+              " ".join(f"{p / t:.3f}" for p, t in means), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("experiment", choices=["marble", "points", "bunny"])
+    parser.add_argument("--quick", action="store_true", help="fewer samples")
+    options = parser.parse_args()
+    OUT.mkdir(parents=True, exist_ok=True)
+    {"marble": marble, "points": points, "bunny": bunny}[options.experiment](options.quick)
+
+
+if __name__ == "__main__":
+    main()
