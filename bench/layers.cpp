@@ -61,7 +61,7 @@ double walk(const Layer& l, Random& random) {
                      b = s * std::sin(phi);
         const double across = std::sqrt(std::max(0., 1. - uz * uz));
         if (across < 1e-6) {
-            ux = a, uy = b, uz = std::copysign(c, uz);
+            ux = a, uy = b, uz = std::copysign(1., uz) * c;
         } else {
             const double vx = ux, vy = uy;
             ux = a * (vx * uz) / across - b * vy / across + vx * c;

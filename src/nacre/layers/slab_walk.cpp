@@ -34,6 +34,7 @@ class Walk {
 
     bool alive() const { return alive_ != 0; }
 
+    // Inlined, with all of the loop, so that the packs of two walks stay in registers and overlap.
     [[gnu::always_inline]] void step() {
         fly();
         collide();
@@ -84,7 +85,7 @@ class Walk {
     }
 
     /// To the next collision, or out. Where a photon is reflected, the rest of its way is mirrored.
-    void fly() {
+    [[gnu::always_inline]] void fly() {
         const Pack zero(0.f);
         Pack way = -fast_log(random_.next()), from = z_;
         z_ = z_ + uz_ * way;
@@ -175,10 +176,7 @@ class Walk {
             radius().store(radii);
             const std::uint32_t d = bits(down);
             for_each_bit(bits(exits), [&](int i) {
-                const int a = std::min(int(float(b.angle) * std::acos(std::min(cosines[i], 1.f)) *
-                                           float(2. * std::numbers::inv_pi)),
-                                       b.angle - 1);
-                record_exit(d >> i & 1, radii[i], a, double(weight[i]));
+                record_exit(d >> i & 1, radii[i], cosines[i], double(weight[i]));
             });
         }
         if constexpr (!single) {
@@ -191,13 +189,15 @@ class Walk {
         weight_ = select(exits, zero, weight_);
     }
 
-    void record_exit(bool below, float radius, int angle, double weight) {
+    void record_exit(bool below, float radius, float cosine, double weight) {
         const SlabBins& b = layout_.bins;
         const bool within = radius < float(b.radius);
-        const auto r = std::size_t(within ? radius : 0.f), a = std::size_t(angle);
+        const auto r = std::size_t(within ? radius : 0.f);
         if (within)
             tally_[(below ? layout_.transmitted_radius : layout_.reflected_radius) + r] += weight;
         if (b.angle == 0) return;
+        const float angle = std::acos(std::min(cosine, 1.f)) * float(2. * std::numbers::inv_pi);
+        const auto a = std::size_t(std::min(int(angle * float(b.angle)), b.angle - 1));
         tally_[(below ? layout_.transmitted_angle : layout_.reflected_angle) + a] += weight;
         if (within && b.pairs)
             tally_[(below ? layout_.transmitted_radius_angle : layout_.reflected_radius_angle) +
@@ -210,7 +210,7 @@ class Walk {
         return fast_sqrt(x_ * x_ + y_ * y_) * Pack(float(1. / layout_.bins.radius_width));
     }
 
-    void collide() {
+    [[gnu::always_inline]] void collide() {
         const Pack zero(0.f);
         if (layout_.bins.depth > 0) record_absorption();
         weight_ = weight_ - weight_ * here_.absorb;  // exact for albedos close to 1, too
