@@ -277,6 +277,19 @@ TEST(SlabMonteCarlo, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
+TEST(SlabMonteCarlo, MorePhotonsAreOtherPhotons) {
+    // The second half of the batches must not repeat the first.
+    SlabMonteCarloOptions options;
+    options.photons = 1 << 20;
+    const auto half = slab_monte_carlo(stacks()[0], options);
+    options.photons = 1 << 21;
+    const auto whole = slab_monte_carlo(stacks()[0], options);
+    EXPECT_EQ(whole.photons, 2 * half.photons);
+    EXPECT_NE(whole.totals.reflectance, half.totals.reflectance);
+    EXPECT_NEAR(whole.error.reflectance, half.error.reflectance / std::sqrt(2.),
+                0.3 * half.error.reflectance);
+}
+
 TEST(SlabMonteCarlo, StandardErrorsAreHonest) {
     // 100 runs: the mean of the squared standardised deviations is 1 +- 0.14 (three sigma: 0.42).
     const LayerStack stack{{layer_of(0.8, 2., 0.5, 1.4)}};

@@ -53,7 +53,8 @@ struct LayerPacks {
 };
 
 /// Fresnel's reflectance for the near side's cosine c, and the cosine behind the interface. The
-/// form (eta^2 - 1) + c^2 is exact at eta = 1, where grazing light must pass.
+/// form (eta^2 - 1) + c^2 is exact at eta = 1, where grazing light must pass; g = 0, total
+/// reflection, gives exactly 1.
 struct Crossing {
     Pack reflectance, cosine;
 };
@@ -64,7 +65,7 @@ struct Crossing {
     const Pack b = c + g, q = e2 * c + g, bq = b * q;
     const Pack s = (c - g) * q, p = (e2 * c - g) * b;
     const Pack r = Pack(0.5f) * (s * s + p * p) / max(bq * bq, Pack(1e-30f));
-    return {select(g > Pack(0.f), r, one), g / eta};
+    return {r, g / eta};
 }
 
 }  // namespace nacre::slab
