@@ -34,11 +34,9 @@ void check(const RepulsionOptions& options) {
     if (options.sweeps < 0 || options.sweeps > 1000)
         throw InputError(fmt::format("point repulsion in {} sweeps; give a number from 0 to 1000",
                                      options.sweeps));
-    if (!(options.step > 0.f && options.step <= 0.3f))
-        throw InputError(
-            fmt::format("point repulsion with step {}; give a number above 0, at most "
-                        "0.3",
-                        options.step));
+    if (!(options.step > 0.f && options.step <= 0.24f))
+        throw InputError(fmt::format(
+            "point repulsion with step {}; give a number above 0, at most 0.24", options.step));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <queue>
 
@@ -16,25 +17,28 @@
 namespace nacre {
 namespace {
 
-// What one candidate adds to the weight of another.
+// What one candidate adds to the weight of another. Taken as nothing beyond 0.82 of 2 r, which
+// holds a third of all pairs: there it is at most 0.18^8 = 1e-6, a sixtieth of what the nearest
+// neighbours add in the end, 0.7 of 2 r away.
 class Crowding {
   public:
     Crowding(double area, std::size_t count, std::size_t candidates)
-        : reach_(static_cast<float>(2 * std::sqrt(area / (2 * std::sqrt(3.0) * double(count))))),
-          least_(static_cast<float>(reach_ * 0.65 *
+        : diameter_(
+              static_cast<float>(std::sqrt(2 * area / (std::numbers::sqrt3 * double(count))))),
+          least_(static_cast<float>(diameter_ * 0.65 *
                                     (1 - std::pow(double(count) / double(candidates), 1.5)))) {}
 
-    float reach() const { return reach_; }
+    float reach() const { return 0.82f * diameter_; }
     float operator()(const SheetPoint& a, const SheetPoint& b) const {
         const float squared = length_squared(a.p - b.p);
-        if (squared >= reach_ * reach_ || !same_sheet(a, b)) return 0.f;
-        const float near = 1 - std::max(std::sqrt(squared), least_) / reach_;
+        if (squared >= reach() * reach() || !same_sheet(a, b)) return 0.f;
+        const float near = 1 - std::max(std::sqrt(squared), least_) / diameter_;
         const float near2 = near * near, near4 = near2 * near2;
         return near4 * near4;
     }
 
   private:
-    float reach_, least_;
+    float diameter_, least_;  ///< 2 r and 2 r_min
 };
 
 // What every candidate adds to the weights of those around it, by slots of the grid. Kept rather

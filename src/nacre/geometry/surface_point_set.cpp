@@ -71,8 +71,10 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
     for (std::size_t i = 0; i < count; ++i)
         sheet[i] = {points.p[i], points.n[i], component[points.triangle[i]],
                     static_cast<std::uint32_t>(i)};
-    const auto radius = static_cast<float>(2 * std::sqrt(sampler.area() / double(count)));
-    const SurfaceGrid grid(sheet, radius);
+    // Even points leave no hole wider than the first radius; the second is for others.
+    const auto spacing = static_cast<float>(std::sqrt(sampler.area() / double(count)));
+    const float radii[] = {1.25f * spacing, 2.5f * spacing};
+    const SurfaceGrid grids[] = {{sheet, radii[0]}, {sheet, radii[1]}};
 
     // Counts are whole numbers, so the order in which threads add to them does not matter.
     std::vector<std::atomic<std::uint32_t>> owned(count);
@@ -90,14 +92,16 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
                                            (Vec3d(mesh.positions[t[2]]) - a) * place.v),
                                    Vec3f(geometric_normal(mesh, place.triangle)),
                                    component[place.triangle], 0};
-        float nearest = radius * radius;
         std::uint32_t owner = ~0u;
-        grid.around(sample.p).for_each([&](std::uint32_t slot) {
-            const SheetPoint& point = grid.points()[slot];
-            const float distance = length_squared(point.p - sample.p);
-            if (distance < nearest && same_sheet(point, sample))
-                nearest = distance, owner = point.index;
-        });
+        for (int g = 0; g < 2 && owner == ~0u; ++g) {
+            float nearest = radii[g] * radii[g];
+            grids[g].around(sample.p).for_each([&](std::uint32_t slot) {
+                const SheetPoint& point = grids[g].points()[slot];
+                const float distance = length_squared(point.p - sample.p);
+                if (distance < nearest && same_sheet(point, sample))
+                    nearest = distance, owner = point.index;
+            });
+        }
         if (owner == ~0u)
             ++without_owner;
         else

@@ -35,12 +35,11 @@ SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t
 /// `samples_per_point` times as many regular samples of the surface, each given to the nearest
 /// point on its sheet (same_sheet in surface_grid.h). The error of one share, measured (RMS) on a
 /// lattice whose shares are known, is about 0.5 / samples_per_point^0.75 of it where triangles hold
-/// many samples (2 % for 64), and approaches 1 / sqrt(samples_per_point) where they hold less than
-/// one and the mesh lists them in no spatial order.
-/// Samples without a point within two mean spacings, as on components smaller than one share, are
-/// divided among all points, so that the sum stays the mesh's area. A point that coincides with
-/// another may get 0.
+/// many samples (4 % for 32, 2 % for 64), and approaches 1 / sqrt(samples_per_point) where they
+/// hold less than one and the mesh lists them in no spatial order. Samples without a point
+/// within 2.5 sqrt(area / count), as on components smaller than one share, are divided among all
+/// points, so that the sum stays the mesh's area. A point that coincides with another may get 0.
 /// @throws InputError as random_points, and unless 1 <= samples_per_point <= 10000.
-void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 64);
+void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 32);
 
 }  // namespace nacre

