@@ -51,7 +51,7 @@ def compare(name, reference, mask=None):
 
 
 def marble(quick):
-    scene = ROOT / "gallery" / "translucency"
+    scene = ROOT / "scenes" / "translucency"
     spp, complete, reference = (8, 16, 32) if quick else (32, 64, 256)
     render(scene / "03_marble_complete.xml", "marble_reference", "-D", f"spp={reference}", "--seed", 77)
     rows = []
@@ -71,7 +71,7 @@ def marble(quick):
 
 
 def points(_):
-    scene = ROOT / "gallery" / "translucency" / "02_marble_two_pass.xml"
+    scene = ROOT / "scenes" / "translucency" / "02_marble_two_pass.xml"
     print(f"{'spacing':>8} {'points':>8} {'points s':>9} {'irradiance s':>12} {'tree s':>8} {'render CPU s':>12} {'MB':>6}")
     rows = []
     for spacing in (8, 5.6, 4, 2.8, 2, 1.4, 1):
