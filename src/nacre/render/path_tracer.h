@@ -24,7 +24,7 @@ class PathTracer : public Integrator {
     Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
                       RayCounts& counts) const override;
     /// One-sample estimate of the radiance that `material` at `at` sends towards `wo` (local), its
-    /// own emission left out. For `Entry` and white light it is T over the hemisphere: the
+    /// own emission left out. For `EntryLobe` and white light it is T over the hemisphere: the
     /// irradiance that passes the boundary, over pi.
     Spectral reflected(const SurfacePoint& at, const Material& material, const Vec3f& wo,
                        Sampler& sampler, const Wavelengths& wavelengths, RayCounts& counts) const;

@@ -14,18 +14,18 @@ bool is_outside(const SurfacePoint& at, const Vec3f& wi) {
 
 }  // namespace
 
-Spectral Entry::eval(const SurfacePoint& at, const Vec3f&, const Vec3f& wi,
-                     const Wavelengths&) const {
+Spectral EntryLobe::eval(const SurfacePoint& at, const Vec3f&, const Vec3f& wi,
+                         const Wavelengths&) const {
     if (!is_outside(at, wi)) return Spectral(0.f);
     return Spectral((1.f - fresnel_dielectric(wi.z, eta_)) * cosine_hemisphere_pdf(wi.z));
 }
 
-float Entry::pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
+float EntryLobe::pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi, const Wavelengths&) const {
     return cosine_hemisphere_pdf(wi.z);
 }
 
-std::optional<MaterialSample> Entry::sample(const SurfacePoint& at, const Vec3f&, float, Vec2f u2,
-                                            const Wavelengths&) const {
+std::optional<MaterialSample> EntryLobe::sample(const SurfacePoint& at, const Vec3f&, float,
+                                                Vec2f u2, const Wavelengths&) const {
     MaterialSample s;
     s.wi = square_to_cosine_hemisphere(u2);
     s.pdf = cosine_hemisphere_pdf(s.wi.z);

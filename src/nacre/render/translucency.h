@@ -17,10 +17,10 @@ namespace nacre {
 
 /// Where light enters a translucent object: a diffuse "reflector" of albedo 1 whose light passes
 /// the boundary, T(w_i) / pi. A path that goes on from an entry point goes on from this material.
-class Entry final : public Material {
+class EntryLobe final : public Material {
   public:
     /// `eta`: index inside over outside; 1 if there is no boundary.
-    explicit Entry(float eta) : eta_(eta) {}
+    explicit EntryLobe(float eta) : eta_(eta) {}
 
     unsigned flags() const override { return reflects | has_smooth; }
     Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
@@ -43,7 +43,7 @@ class Translucency {
     struct Emergence {
         Spectral radiance{0.f};             ///< that is known already
         std::optional<SurfacePoint> entry;  ///< a place where the rest came in
-        Spectral weight{0.f};               ///< of what `Entry` there sends on
+        Spectral weight{0.f};               ///< of what `EntryLobe` there sends on
     };
     /// One-sample estimate of the radiance that emerges at `exit` towards `wo` (local, z > 0), over
     /// the boundary's transmittance in that direction.
@@ -51,11 +51,11 @@ class Translucency {
                              const Wavelengths& wavelengths, RayCounts& counts) const = 0;
 
     float eta() const { return eta_; }
-    const Entry& entry() const { return entry_; }
+    const EntryLobe& entry() const { return entry_; }
 
   private:
     float eta_;
-    Entry entry_;
+    EntryLobe entry_;
 };
 using TranslucencyPtr = std::shared_ptr<const Translucency>;
 

@@ -82,7 +82,7 @@ ShapePoints spread_points(const TechniqueInput& in, double spacing) {
 /// Power that enters at each point in each band: irradiance behind the boundary times area.
 std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
                             const Bands& bands) {
-    const Entry entry(in.eta);
+    const EntryLobe entry(in.eta);
     const int groups = bands.groups(),
               samples = std::max(1, in.settings.irradiance_samples / groups);
     std::vector<float> power(points.p.size() * std::size_t(bands.count()));
