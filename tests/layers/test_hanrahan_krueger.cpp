@@ -296,6 +296,24 @@ TEST(HanrahanKrueger, SamplesWhatItsDensitySays) {
     check(Any{0.9f, 1.f, PhaseFunction::schlick(0.5f), 1.1f}, "schlick in water");
 }
 
+// In single precision: without boundaries every sample has a direction, however grazing.
+TEST(HanrahanKrueger, SamplesKeepGrazingDirections) {
+    const HanrahanKrueger<float, float, PhaseFunction> fog{0.9f, 1.f, PhaseFunction::isotropic()};
+    const Slab exact = slab(0.9, 1., 0.);
+    const Vec3f wo(direction(70., 0.));
+    Random random(stream_key(6, 1));
+    int lost = 0;
+    double worst = 0.;
+    for (int i = 0; i < 200000; ++i) {
+        const Vec2f u = random.next2();
+        const Vec3f w = fog.sample(wo, u);
+        lost += w.z == 0.f;
+        worst = std::max(worst, std::abs(w.z - exact.sample(direction(70., 0.), {u.x, u.y}).z));
+    }
+    EXPECT_EQ(lost, 0);
+    EXPECT_LT(worst, 1e-6);
+}
+
 TEST(HanrahanKrueger, SamplesNothingWhereNothingEnters) {
     const Slab bubble = slab(0.9, 1., 0.3, 0.8);
     EXPECT_EQ(bubble.sample(direction(70., 0.), {0.3, 0.6}), Vec3d());

@@ -125,6 +125,14 @@ inline std::vector<NamedMaterial> all_materials() {
     add("twosided", bsdf("twosided", {}, {child(metal)}), true);
     add("twosided of two", bsdf("twosided", {}, {child(diffuse), child(bsdf("plastic"))}), true);
     add("mask", bsdf("mask", {number("opacity", 0.3)}, {child(diffuse)}), true);
+    const auto forward = node("phase", "hg", {number("g", 0.5)});
+    const std::vector<SceneValue> matter = {rgb("sigma_s", {2.f, 1.f, 0.3f}),
+                                            rgb("sigma_a", {0.1f, 0.3f, 0.6f}),
+                                            number("thickness", 0.4)};
+    add("hk", bsdf("hk", matter, {child(forward)}), true);
+    std::vector<SceneValue> in_glass = matter;
+    in_glass.push_back(number("int_ior", 1.5));
+    add("hk in glass", bsdf("hk", in_glass, {child(forward)}), true);
     return list;
 }
 

@@ -31,8 +31,8 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
         {bsdf("difuse"), "test.xml:1:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
         {bsdf("xyzzy"),
          fmt::format("test.xml:1:1: unknown bsdf type 'xyzzy'; known are: conductor, dielectric, "
-                     "diffuse, mask, null, plastic, roughconductor, roughdielectric, roughplastic, "
-                     "thindielectric, twosided, {}",
+                     "diffuse, hk, mask, null, plastic, roughconductor, roughdielectric, "
+                     "roughplastic, thindielectric, twosided, {}",
                      fmt::join(model_names(), ", "))},
         {bsdf("diffuse", {number("reflectence", 0.5)}),
          "test.xml:2:5: <bsdf type=\"diffuse\"> has no parameter 'reflectence'; did you mean "
@@ -110,6 +110,38 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
          "cannot be nested in <bsdf type=\"twosided\">"},
         {bsdf("mask", {}, {child(diffuse), child(diffuse)}),
          "test.xml:1:1: <bsdf type=\"mask\"> takes 1 nested <bsdf>, but 2 are given"},
+        {bsdf("hk", {number("thickness", 0.)}),
+         "test.xml:2:5: 'thickness' of <bsdf type=\"hk\"> must be positive; got 0"},
+        {bsdf("hk", {number("thickness", nan)}),
+         "test.xml:2:5: 'thickness' of <bsdf type=\"hk\"> must be positive; got nan"},
+        {bsdf("hk", {number("sigma_s", -1.), number("sigma_a", 1.)}),
+         "test.xml:2:5: 'sigma_s' must be finite and at least 0, but has the value -1"},
+        {bsdf("hk", {number("sigma_s", 1.)}), "test.xml:2:5: 'sigma_s' needs 'sigma_a' as well"},
+        {bsdf("hk", {number("sigma_s", 1.), number("sigma_a", 1.), number("albedo", 0.5)}),
+         "test.xml:2:5: give either 'sigma_t' and 'albedo' or 'sigma_s' and 'sigma_a', not a "
+         "mixture"},
+        {bsdf("hk", {number("albedo", 1.5)}),
+         "test.xml:2:5: 'albedo' must lie within [0, 1], but has the value 1.5"},
+        {bsdf("hk", {text("material", "marble"), number("sigma_t", 1.)}),
+         "test.xml:2:5: give either 'material' or 'sigma_t', not both"},
+        {bsdf("hk", {flag("sigma_t", true)}),
+         "test.xml:2:5: 'sigma_t' of <bsdf type=\"hk\"> is a boolean, but a colour was expected"},
+        {bsdf("hk", {number("material", 2.)}),
+         "test.xml:2:5: 'material' of <bsdf type=\"hk\"> is a float, but a string was expected"},
+        {bsdf("hk", {number("sigmas", 1.)}),
+         "test.xml:2:5: <bsdf type=\"hk\"> has no parameter 'sigmas'; did you mean 'sigma_s'?"},
+        {bsdf("hk", {number("int_ior", -1.)}),
+         "test.xml:2:5: 'int_ior' of <bsdf type=\"hk\">: index of refraction: n = -1 must be "
+         "positive"},
+        {bsdf("hk", {text("int_ior", "dispersive bk7")}),
+         "test.xml:1:1: <bsdf type=\"hk\"> takes one index of refraction for all wavelengths; only "
+         "smooth dielectrics disperse light"},
+        {bsdf("hk", {}, {child(test::node("phase", "hgg"))}),
+         "test.xml:1:1: unknown phase function 'hgg'; did you mean 'hg'?"},
+        {bsdf("hk", {}, {child(test::node("phase", "hg")), child(test::node("phase", "hg"))}),
+         "test.xml:3:7: a medium has only one phase function"},
+        {bsdf("hk", {}, {child(diffuse)}),
+         "test.xml:3:7: <bsdf type=\"hk\"> cannot hold <bsdf type=\"diffuse\">"},
         {bsdf("diffuse", {}, {child(diffuse)}),
          "test.xml:3:7: <bsdf type=\"diffuse\"> cannot hold <bsdf type=\"diffuse\">"},
     };

@@ -97,10 +97,11 @@ struct HanrahanKrueger {
         const D phi = D(2 * std::numbers::pi) * u.y;
         const Vec3<D> w =
             Frame<D>::around(onwards).to_world({s * std::cos(phi), s * std::sin(phi), c});
-        const Vec2<D> tangential{w.x * eta, w.y * eta};
-        const D z2 = D(1) - (tangential.x * tangential.x + tangential.y * tangential.y);
-        if (!(z2 > D(0)) || w.z == D(0) || onwards.z == D(0)) return {};
-        return {tangential.x, tangential.y, std::copysign(std::sqrt(z2), w.z)};
+        // 1 - eta^2 (1 - w.z^2), exactly w.z^2 without a boundary: the difference of squares would
+        // lose grazing directions to rounding.
+        const D z2 = eta * eta * w.z * w.z - (eta - D(1)) * (eta + D(1));
+        if (!(z2 > D(0)) || onwards.z == D(0)) return {};
+        return {w.x * eta, w.y * eta, std::copysign(std::sqrt(z2), w.z)};
     }
     /// Density of `sample`, sr^-1: p times dw_inside / dw_outside = z / (eta^2 m). Its integral is
     /// the probability that the boundary lets the direction out: 1 without boundaries.

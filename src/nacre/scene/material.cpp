@@ -18,6 +18,7 @@ constexpr MaterialType types[] = {
     {"conductor", make_conductor},
     {"dielectric", make_dielectric},
     {"diffuse", make_diffuse},
+    {"hk", make_hk},
     {"mask", make_mask},
     {"null", make_null},
     {"plastic", make_plastic},

@@ -8,6 +8,7 @@ namespace nacre {
 MaterialPtr make_conductor(const SceneNode& node, BuildContext& context);
 MaterialPtr make_dielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_hk(const SceneNode& node, BuildContext& context);
 MaterialPtr make_mask(const SceneNode& node, BuildContext& context);
 MaterialPtr make_null(const SceneNode& node, BuildContext& context);
 MaterialPtr make_plastic(const SceneNode& node, BuildContext& context);
