@@ -25,6 +25,32 @@ std::string quoted(const std::string& text) {
     return r + "'";
 }
 
+/// Columns 2.. over column 1, those of standard errors as bars of the column they belong to.
+std::string curves(const Table& t, const std::string& using_format) {
+    std::vector<std::string> parts;
+    for (std::size_t c = 1; c < t.columns.size(); ++c) {
+        if (const auto error = t.errors.find(c); error != t.errors.end())
+            parts.push_back(
+                fmt::format("$data using 1:{}:{} with yerrorbars lw 1 pt 0 lc rgb 'black' notitle",
+                            error->second + 1, c + 1));
+        else
+            parts.push_back(fmt::format("$data using {} with lines lw 2 title \"{}\"",
+                                        fmt::format(fmt::runtime(using_format), c + 1),
+                                        t.columns[c]));
+    }
+    return fmt::format("plot {}\n", fmt::join(parts, ", "));
+}
+
+/// The lower end of a logarithmic ordinate: what falls without end would press all else together.
+double lowest_shown(const Table& t) {
+    constexpr double decades = 1e-8;
+    double largest = 0.;
+    for (const auto& row : t.rows)
+        for (std::size_t c = 1; c < row.size(); ++c)
+            if (!t.errors.contains(c) && row[c] > largest) largest = row[c];
+    return decades * largest;
+}
+
 /// Numbers in the form of gnuplot; an image's rows are kept apart by the first column.
 std::string gnuplot_script(const Table& t, const fs::path& output, const std::string& set_up) {
     std::string s = set_up + "\n";
@@ -33,25 +59,25 @@ std::string gnuplot_script(const Table& t, const fs::path& output, const std::st
     s += "$data << END\n";
     for (const auto& row : t.rows) s += fmt::format("{:.8g}\n", fmt::join(row, " "));
     s += "END\nset key noenhanced\n";
-    const auto curves = [&](const std::string& using_format) {
-        std::string plot;
-        for (std::size_t c = 1; c < t.columns.size(); ++c)
-            plot += fmt::format("{}$data using {} with lines lw 2 title \"{}\"", c == 1 ? "" : ", ",
-                                fmt::format(fmt::runtime(using_format), c + 1), t.columns[c]);
-        return "plot " + plot + "\n";
-    };
     switch (t.kind) {
         case PlotKind::curves:
+        case PlotKind::semilog:
+        case PlotKind::logarithmic:
+            if (t.kind != PlotKind::curves) {
+                s += fmt::format("set logscale {}\nset format y \"10^{{%T}}\"\n",
+                                 t.kind == PlotKind::semilog ? "y" : "xy");
+                s += fmt::format("set yrange [{:.3g}<*:]\nset key bottom left\n", lowest_shown(t));
+            }
             s += fmt::format("set xlabel \"{}\" noenhanced\nset ylabel \"{}\" noenhanced\n",
                              t.columns[0], t.y_label);
-            s += curves("1:{}");
+            s += curves(t, "1:{}");
             break;
         case PlotKind::polar:
             s += fmt::format(
                 "set size ratio -1\nset zeroaxis\nset yrange [0:*]\nset key outside bottom center "
                 "horizontal\nset xlabel \"{}\" noenhanced\n",
                 t.y_label);
-            s += curves("(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
+            s += curves(t, "(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
             break;
         case PlotKind::image:
             s += fmt::format(
@@ -101,15 +127,20 @@ void write_text(const fs::path& path, const std::string& text) {
     fs::rename(beside, path);
 }
 
+void check_table_output(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    if (!path.empty() && extension != ".csv" && extension != ".svg" && extension != ".png")
+        throw InputError(
+            fmt::format("cannot write '{}': a table becomes .csv, .svg or .png", path.string()));
+}
+
 void write_table(const Table& table, const fs::path& path) {
     if (path.empty()) {
         fmt::print("{}", csv_of(table));
         return;
     }
+    check_table_output(path);
     const std::string extension = path.extension().string();
-    if (extension != ".csv" && extension != ".svg" && extension != ".png")
-        throw InputError(
-            fmt::format("cannot write '{}': a table becomes .csv, .svg or .png", path.string()));
     fs::path csv = path;
     write_text(csv.replace_extension(".csv"), csv_of(table));
     if (extension == ".csv") return;

@@ -172,8 +172,9 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
         ->allow_extra_args(false);
     app.add_option("--mode", o->mode, "rgb or spectral (default: what the scene needs)");
     app.add_option("--exposure", o->exposure, "stops, for .png");
-    app.add_option("--material", o->material,
-                   "of a bare mesh: a measured medium (see 'nacre models'; default: marble)");
+    app.add_option(
+        "--material", o->material,
+        "of a bare mesh: a measured medium or skin (see 'nacre models'; default: marble)");
     app.add_option("--height-mm", o->height_mm, "height of a bare mesh (default: 100)");
     app.add_flag("--variance", o->variance, "also write the variance of one sample (EXR)");
     app.add_flag("--strict", o->strict,

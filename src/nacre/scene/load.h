@@ -10,6 +10,8 @@
 
 namespace nacre {
 
+struct MeasuredMedium;
+
 struct LoadOptions {
     std::map<std::string, std::string> defines = {};  ///< -D name=value
     /// Unset: RGB bands, unless the scene carries genuine wavelength data (tabulated spectra, black
@@ -26,6 +28,10 @@ SceneNodePtr read_scene_xml(const std::filesystem::path& file,
                             std::vector<std::filesystem::path>& search_path);
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// What a bare mesh may be made of: the measured medium of that name, or null for skin. Throws
+/// InputError with the nearest name and the list of all.
+const MeasuredMedium* translucent_material(std::string_view name);
 
 struct MeshSceneOptions {
     std::string material = "marble";       ///< a measured medium (optics/media.h), or skin

@@ -88,12 +88,11 @@ struct Filling {
 /// similarity relation as good as the true phase function after a few collisions.
 Filling filling(std::string_view material) {
     Filling r;
-    if (plain_name(material) == "skin") {
-        r = {make_node("medium", "skin"), SkinParameters{}.epidermis.eta};
+    if (const MeasuredMedium* measured = translucent_material(material)) {
+        r = {make_node("medium", "homogeneous"), measured->eta};
+        set(r.medium, "material", "string", std::string(measured->name));
     } else {
-        const MeasuredMedium& measured = measured_medium(material);
-        r = {make_node("medium", "homogeneous"), measured.eta};
-        set(r.medium, "material", "string", std::string(measured.name));
+        r = {make_node("medium", "skin"), SkinParameters{}.epidermis.eta};
     }
     add(r.medium, make_node("phase", "isotropic"));
     return r;
@@ -127,6 +126,15 @@ std::shared_ptr<Mesh> placed(Mesh mesh, double height_mm) {
 }
 
 }  // namespace
+
+const MeasuredMedium* translucent_material(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const MeasuredMedium& m : measured_media()) names.push_back(m.name);
+    names.emplace_back("skin");
+    const int i = find_name(name, names);
+    if (i < 0) throw InputError(unknown_name("measured medium", name, names));
+    return i + 1 == int(names.size()) ? nullptr : &measured_media()[std::size_t(i)];
+}
 
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {
     const Filling inside = filling(options.material);
