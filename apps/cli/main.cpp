@@ -21,6 +21,7 @@ constexpr Verb verbs[] = {
     {"eval", "evaluate a reflectance model: values, albedo, plots", set_up_eval},
     {"profile", "evaluate diffusion profiles: how far light spreads below a surface",
      set_up_profile},
+    {"slab", "reflectance and transmittance of a stack of layers, by every method", set_up_slab},
     {"check", "check models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
     {"image", "convert an image between EXR, PFM, HDR and PNG", set_up_image},
