@@ -9,7 +9,16 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t width = 100;
 
-/// The words of a text in lines of at most `width`, the first after `lead`, the others below it.
+std::string behaviour_text(const Behaviour& b) {
+    std::string text = fmt::format(
+        "{}, {}", b.reciprocal ? "reciprocal" : "not reciprocal",
+        b.energy == Energy::conserves ? "conserves energy" : "does not conserve energy");
+    if (!b.energy_note.empty()) text += fmt::format(" ({})", b.energy_note);
+    return wrapped(b.options.empty() ? "      " : fmt::format("      {}: ", b.options), text);
+}
+
+}  // namespace
+
 std::string wrapped(std::string lead, std::string_view text) {
     const std::string indent(lead.size(), ' ');
     std::string result, line = std::move(lead);
@@ -53,16 +62,6 @@ std::string parameter_text(const Parameter& p) {
         text += fmt::format("      {:<12} also {}\n", "", fmt::join(p.aliases, ", "));
     return text;
 }
-
-std::string behaviour_text(const Behaviour& b) {
-    std::string text = fmt::format(
-        "{}, {}", b.reciprocal ? "reciprocal" : "not reciprocal",
-        b.energy == Energy::conserves ? "conserves energy" : "does not conserve energy");
-    if (!b.energy_note.empty()) text += fmt::format(" ({})", b.energy_note);
-    return wrapped(b.options.empty() ? "      " : fmt::format("      {}: ", b.options), text);
-}
-
-}  // namespace
 
 std::string_view kind_name(ParameterKind kind) {
     switch (kind) {
@@ -108,9 +107,9 @@ std::string model_page(const ModelDescription& m) {
     return page;
 }
 
-ordered_json model_json(const ModelDescription& m) {
+ordered_json parameters_json(std::span<const Parameter> all) {
     ordered_json parameters = ordered_json::array();
-    for (const Parameter& p : m.parameters) {
+    for (const Parameter& p : all) {
         ordered_json j{{"name", p.name}, {"meaning", p.meaning}, {"kind", kind_name(p.kind)}};
         if (!p.unit.empty()) j["unit"] = p.unit;
         if (p.kind == ParameterKind::choice) {
@@ -126,6 +125,10 @@ ordered_json model_json(const ModelDescription& m) {
         j["aliases"] = p.aliases;
         parameters.push_back(std::move(j));
     }
+    return parameters;
+}
+
+ordered_json model_json(const ModelDescription& m) {
     ordered_json behaviours = ordered_json::array();
     for (const Behaviour& b : m.behaviours)
         behaviours.push_back({{"options", b.options},
@@ -140,7 +143,7 @@ ordered_json model_json(const ModelDescription& m) {
             {"paper", m.paper},
             {"equations", m.equations},
             {"formula", m.formula},
-            {"parameters", std::move(parameters)},
+            {"parameters", parameters_json(m.parameters)},
             {"behaviours", std::move(behaviours)},
             {"isotropy", m.isotropy},
             {"sampling", m.sampling},

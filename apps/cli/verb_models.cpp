@@ -5,7 +5,9 @@
 #include "apps/cli/illumination_page.h"
 #include "apps/cli/model_docs.h"
 #include "apps/cli/model_page.h"
+#include "apps/cli/subsurface_page.h"
 #include "apps/cli/verb.h"
+#include "nacre/layers/skin.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
 #include "nacre/optics/names.h"
@@ -34,6 +36,37 @@ ordered_json to_json(const MeasuredMedium& m) {
     if (m.diffuse_reflectance) r["diffuse_reflectance"] = to_json(*m.diffuse_reflectance);
     r["source"] = m.source;
     return r;
+}
+
+constexpr std::string_view skin_source =
+    "S. L. Jacques 1998, Skin Optics, OMLC News; layers after A. Krishnaswamy, G. Baranoski 2004";
+
+/// Skin as one medium, at a few wavelengths.
+ordered_json skin_json() {
+    ordered_json r{{"name", "skin"}, {"kind", "spectral_medium"}, {"source", skin_source}};
+    for (double nm = 400.; nm <= 700.; nm += 50.) {
+        const Layer m = skin_coefficients(SkinParameters{}, nm);
+        r["spectrum"].push_back({{"nm", nm},
+                                 {"sigma_s_prime_per_mm", m.sigma_s * (1. - m.g)},
+                                 {"sigma_a_per_mm", m.sigma_a},
+                                 {"g", m.g},
+                                 {"eta", m.eta}});
+    }
+    return r;
+}
+
+std::string skin_page() {
+    std::string page = fmt::format(
+        "skin: layers of human skin, and one medium that stands for them (<medium "
+        "type=\"skin\">)\n  source: {}\n  as layers: nacre slab --skin\n\n  {:>6} {:>26} {:>18} "
+        "{:>8}\n",
+        skin_source, "nm", "reduced scattering, mm^-1", "absorption, mm^-1", "g");
+    for (double nm = 400.; nm <= 700.; nm += 50.) {
+        const Layer m = skin_coefficients(SkinParameters{}, nm);
+        page += fmt::format("  {:>6} {:>26.4g} {:>18.4g} {:>8.3g}\n", nm, m.sigma_s * (1. - m.g),
+                            m.sigma_a, m.g);
+    }
+    return page;
 }
 
 /// Everything that has only a name, by kind.
@@ -66,7 +99,11 @@ int list(bool json) {
         for (const auto& [kind, names] : named_models()) r[kind] = names;
         for (const illumination::Description* m : illumination::descriptions())
             r["illumination"].push_back(illumination_json(*m));
+        for (const ProfileDescription* p : profiles()) r["profile"].push_back(profile_json(*p));
+        for (const TechniqueDescription& t : techniques())
+            r["technique"].push_back(technique_json(t));
         for (const MeasuredMedium& m : measured_media()) r["medium"].push_back(to_json(m));
+        r["spectral_medium"].push_back(skin_json());
         fmt::print("{}\n", r.dump(2));
         return success;
     }
@@ -81,12 +118,20 @@ int list(bool json) {
     for (const illumination::Description* m : illumination::descriptions())
         fmt::print("  {:>2} {:<22} {} ({}, {})\n", m->number, m->name, m->title, m->authors,
                    m->year);
+    const auto line = [](const auto& m) {
+        fmt::print("  {:<22} {} ({}, {})\n", m.name, m.title, m.authors, m.year);
+    };
+    fmt::print("\ndiffusion profiles (nacre profile, <subsurface type=...>)\n");
+    for (const ProfileDescription* p : profiles()) line(*p);
+    fmt::print("\ntechniques for translucent objects (nacre render --technique)\n");
+    for (const TechniqueDescription& t : techniques()) line(t);
     fmt::print("\nmeasured media (--material), mm^-1 in red, green, blue\n");
     fmt::print("  {:<24} {:<26} {:<26} {}\n", "name", "reduced scattering", "absorption", "index");
     const auto triple = [](const Vec3f& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
     for (const MeasuredMedium& m : measured_media())
         fmt::print("  {:<24} {:<26} {:<26} {}\n", m.name, triple(m.sigma_s_prime),
                    triple(m.sigma_a), m.eta);
+    fmt::print("  {:<24} by wavelength; see 'nacre models show skin'\n", "skin");
     return success;
 }
 
@@ -118,40 +163,61 @@ bool show_reflectance_model(const std::string& name, bool json) {
     return false;
 }
 
+/// One thing that has a page: its names are compared, and gathered for the message.
+class Finder {
+  public:
+    explicit Finder(const std::string& name) : name_(plain_name(name)) {}
+
+    bool is(std::string_view known) {
+        known_.emplace_back(known);
+        return plain_name(known) == name_;
+    }
+    [[noreturn]] void fail(const std::string& name) const {
+        const std::vector<std::string_view> views(known_.begin(), known_.end());
+        throw InputError(unknown_name("model", name, views));
+    }
+
+  private:
+    std::string name_;
+    std::vector<std::string> known_;
+};
+
+int print_page(bool json, const ordered_json& as_json, const std::string& page) {
+    if (json)
+        fmt::print("{}\n", as_json.dump(2));
+    else
+        fmt::print("{}", page);
+    return success;
+}
+
 int show(const std::string& name, bool json) {
-    std::vector<std::string> known;
+    Finder finder(name);
+    // Before the integrators, of which one is a technique as well.
+    for (const TechniqueDescription& t : techniques())
+        if (finder.is(t.name)) return print_page(json, technique_json(t), technique_page(t));
+    for (const ProfileDescription* p : profiles())
+        if (finder.is(p->name)) return print_page(json, profile_json(*p), profile_page(*p));
     for (const auto& [kind, names] : named_models())
         for (const std::string& n : names) {
-            known.push_back(n);
-            if (plain_name(n) != plain_name(name)) continue;
+            if (!finder.is(n)) continue;
             if (show_reflectance_model(n, json)) return success;
-            if (json)
-                fmt::print("{}\n", ordered_json{{"name", n}, {"kind", kind}}.dump(2));
-            else
-                fmt::print("{}: <{} type=\"{}\">\n", n, kind, n);
-            return success;
+            return print_page(json, {{"name", n}, {"kind", kind}},
+                              fmt::format("{}: <{} type=\"{}\">\n", n, kind, n));
         }
     for (const MeasuredMedium& m : measured_media()) {
-        known.emplace_back(m.name);
-        if (plain_name(m.name) != plain_name(name)) continue;
+        if (!finder.is(m.name)) continue;
         if (json)
             fmt::print("{}\n", to_json(m).dump(2));
         else
             show_medium(m);
         return success;
     }
+    if (finder.is("skin")) return print_page(json, skin_json(), skin_page());
     // Last, because some share their name with a material: those are asked for by number.
-    for (const illumination::Description* m : illumination::descriptions()) {
-        known.emplace_back(m->name);
-        if (plain_name(m->name) != plain_name(name) && std::to_string(m->number) != name) continue;
-        if (json)
-            fmt::print("{}\n", illumination_json(*m).dump(2));
-        else
-            fmt::print("{}", illumination_page(*m));
-        return success;
-    }
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    throw InputError(unknown_name("model", name, views));
+    for (const illumination::Description* m : illumination::descriptions())
+        if (finder.is(m->name) || std::to_string(m->number) == name)
+            return print_page(json, illumination_json(*m), illumination_page(*m));
+    finder.fail(name);
 }
 
 struct Options {
@@ -165,9 +231,10 @@ Action set_up_models(CLI::App& app, const Invocation& invocation) {
     auto o = std::make_shared<Options>();
     app.add_flag("--json", o->json, "for programs");
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
-    sub->add_option("name", o->name,
-                    "a material, medium, phase function, integrator, or the name or number of an "
-                    "illumination model")
+    sub->add_option(
+           "name", o->name,
+           "a material, medium, diffusion profile, technique, phase function, integrator, or "
+           "the name or number of an illumination model")
         ->required();
     sub->add_flag("--json", o->json, "for programs");
     CLI::App* docs = app.add_subcommand("docs", "write the pages of all reflectance models");

@@ -1,0 +1,86 @@
+#include "apps/cli/subsurface_page.h"
+
+#include "apps/cli/model_page.h"
+
+namespace nacre::cli {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+std::string option_range(const SubsurfaceOption& o) {
+    if (!o.words.empty()) return std::string(o.words);
+    return fmt::format("{}{:g} to {:g}", o.whole ? "a whole number, " : "", o.low, o.high);
+}
+
+}  // namespace
+
+std::string profile_page(const ProfileDescription& p) {
+    std::string page = fmt::format("{}: {}\n\n", p.name, p.title);
+    page += wrapped("  by         ", fmt::format("{}, {}", p.authors, p.year));
+    page += wrapped("  paper      ", p.paper);
+    page +=
+        fmt::format("\n  formula (mm^-2, of the light that has entered)\n{}", indented(p.formula));
+    page += "\n";
+    page += wrapped("  scattered once  ", p.single_scattering);
+    page += wrapped("  inversion       ",
+                    p.invertible ? "its total follows from the reduced albedo, so that "
+                                   "an albedo can be asked for"
+                                 : "none: its total does not follow the medium");
+    if (!p.options.empty()) page += fmt::format("\n  options (nacre profile {} --set)\n", p.name);
+    for (const Parameter& option : p.options) page += parameter_text(option);
+    if (!p.errata.empty()) page += "\n  errata of the literature\n";
+    for (std::string_view e : p.errata) page += wrapped("    - ", e);
+    return page;
+}
+
+ordered_json profile_json(const ProfileDescription& p) {
+    return {{"name", p.name},
+            {"kind", "profile"},
+            {"title", p.title},
+            {"authors", p.authors},
+            {"year", p.year},
+            {"paper", p.paper},
+            {"formula", p.formula},
+            {"single_scattering", p.single_scattering},
+            {"invertible", p.invertible},
+            {"options", parameters_json(p.options)},
+            {"errata", p.errata}};
+}
+
+std::string technique_page(const TechniqueDescription& t) {
+    std::string page = fmt::format("{}: {}\n\n", t.name, t.title);
+    page += wrapped("  by          ", fmt::format("{}, {}", t.authors, t.year));
+    page += wrapped("  paper       ", t.paper);
+    page += wrapped("  how         ", t.how);
+    page += wrapped("  precomputes ", t.precomputes.empty() ? "nothing" : t.precomputes);
+    page += wrapped("  may change  ", t.may_change);
+    page += wrapped("  profiles    ", t.profiles.empty() ? "needs none" : t.profiles);
+    if (!t.make) return page;  // a complete simulation has the options of its integrator
+    page += fmt::format("\n  options (nacre render --technique {} --set)\n", t.name);
+    for (const SubsurfaceOption& o : subsurface_options())
+        page += wrapped(fmt::format("      {:<18} ", o.name),
+                        fmt::format("{} ({})", o.meaning, option_range(o)));
+    return page;
+}
+
+ordered_json technique_json(const TechniqueDescription& t) {
+    ordered_json options = ordered_json::array();
+    if (t.make)
+        for (const SubsurfaceOption& o : subsurface_options())
+            options.push_back(
+                {{"name", o.name}, {"meaning", o.meaning}, {"range", option_range(o)}});
+    return {{"name", t.name},
+            {"kind", "technique"},
+            {"title", t.title},
+            {"authors", t.authors},
+            {"year", t.year},
+            {"paper", t.paper},
+            {"how", t.how},
+            {"precomputes", t.precomputes},
+            {"may_change", t.may_change},
+            {"profiles", t.profiles},
+            {"options", std::move(options)}};
+}
+
+}  // namespace nacre::cli
