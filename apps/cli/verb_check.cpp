@@ -5,6 +5,7 @@
 
 #include "apps/cli/vector_file.h"
 #include "apps/cli/vector_functions.h"
+#include "apps/cli/vector_scattering.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/reflectance/check.h"
@@ -92,8 +93,14 @@ json parse_vectors(const std::string& path) {
 
 int check_vectors(const std::string& path) {
     const json all = parse_vectors(path);
+    if (!all.contains("models") && is_scattering_file(all))
+        return check_scattering(all, path) ? success : failure;
     if (!all.contains("models"))
-        throw InputError(fmt::format("'{}' has no \"models\": groups of vectors by name", path));
+        throw InputError(
+            fmt::format("'{}' has neither \"models\", groups of reflectance vectors by name, nor a "
+                        "known group of "
+                        "scattering vectors",
+                        path));
     fmt::print("{:<24} {:<30} {:>4}  {}\n", "group", "answered by", "n",
                "largest relative deviation");
     std::vector<std::string> missing;
@@ -167,9 +174,10 @@ int run(const Options& o) {
 Action set_up_check(CLI::App& app, const Invocation&) {
     auto o = std::make_shared<Options>();
     app.add_option("model", o->model, "a reflectance model, or all");
-    app.add_option(
-        "--vectors", o->vectors,
-        "JSON of reference vectors: largest deviation per group; exit code 1 beyond 1e-6");
+    app.add_option("--vectors", o->vectors,
+                   "JSON of reference vectors, of reflectance (exit code 1 beyond 1e-6) or "
+                   "scattering (beyond the "
+                   "tolerance of a group): largest deviation per group");
     app.add_option("--seed", o->seed, "of the samplers' random numbers (1)");
     app.add_option("--samples", o->samples, "per chi-square test (40000)");
     return [o] { return run(*o); };
