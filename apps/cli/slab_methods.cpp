@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "nacre/layers/adding_doubling.h"
+#include "nacre/layers/angular_grid.h"
 #include "nacre/layers/hanrahan_krueger.h"
+#include "nacre/layers/interfaces.h"
 #include "nacre/layers/kubelka_munk.h"
 #include "nacre/layers/slab_monte_carlo.h"
 #include "nacre/math/error.h"
-#include "nacre/math/quadrature.h"
 #include "nacre/optics/names.h"
 
 namespace nacre::cli {
@@ -17,27 +18,14 @@ namespace {
 
 const double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Calls f(cosine, share of the light) for the nodes of a quadrature over diffuse light. What
-/// happens to a beam is smooth in its cosine but where a medium begins to reflect it totally.
+/// Calls f(cosine, share of the light) for the nodes of a quadrature over diffuse light.
 template <class F>
 void for_diffuse_light(const LayerStack& stack, F&& f) {
-    std::vector<double> ends{0., 1.};
-    const auto end_at = [&](double eta) {
-        const double sine = eta / stack.eta_above;
-        if (sine < 1.) ends.push_back(std::sqrt(1. - sine * sine));
-    };
-    for (const Layer& l : stack.layers) end_at(l.eta);
-    end_at(stack.eta_below);
-    std::sort(ends.begin(), ends.end());
-    const GaussLegendre rule(12);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double half = 0.5 * (ends[i + 1] - ends[i]), middle = 0.5 * (ends[i + 1] + ends[i]);
-        if (half == 0.) continue;
-        for (std::size_t k = 0; k < rule.node.size(); ++k) {
-            const double cosine = middle + half * rule.node[k];
-            f(cosine, 2. * cosine * half * rule.weight[k]);
-        }
-    }
+    constexpr int nodes = 24;
+    const double eta = stack.eta_above;
+    for (const AngularNode& node : angular_grid(media_indices(stack), nodes))
+        if (const double cosine = node.cosine_in(eta); cosine > 0.)
+            f(cosine, 2. * node.weight / (eta * eta));
 }
 
 void add(LayerTotals& sum, const LayerTotals& t, double share) {

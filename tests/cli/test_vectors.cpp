@@ -1,0 +1,116 @@
+// nacre check --vectors on files of scattering vectors.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_line.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::Outcome;
+
+class ScatteringVectors : public test::CommandLine {
+  protected:
+    /// A few of each group of ../shared/reference/scattering_vectors.json.
+    static json few() {
+        std::ifstream in(NACRE_SOURCE_DIR "/tests/cli/data/scattering_vectors.json");
+        return json::parse(in);
+    }
+    Outcome check(const json& vectors) const {
+        std::ofstream(folder_ / "v.json") << vectors.dump();
+        return nacre("check --vectors v.json");
+    }
+    /// The line of the table that begins with the name.
+    static std::string line_of(const std::string& name, const std::string& text) {
+        const std::size_t at = text.find("\n" + name + " ");
+        return at == text.npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    }
+};
+
+TEST_F(ScatteringVectors, EveryGroupIsAnswered) {
+    const json all = few();
+    const Outcome r = check(all);
+    EXPECT_EQ(r.code, 0) << r.out;
+    EXPECT_EQ(r.out.find("WRONG"), std::string::npos) << r.out;
+    for (const auto& [name, group] : all.items()) {
+        if (name == "meta" || name == "diffusion_pde") continue;
+        const std::string line = line_of(name, r.out);
+        ASSERT_FALSE(line.empty()) << name;
+        EXPECT_GT(std::stoi(line.substr(name.size())), 0) << line;
+    }
+    EXPECT_TRUE(r.out.ends_with("\nnot covered: diffusion_pde\n")) << r.out;
+}
+
+// One number of each group, moved by a multiple of the group's tolerance, is found and named.
+TEST_F(ScatteringVectors, AWrongNumberIsFoundInEveryGroup) {
+    const struct {
+        const char *group, *place, *where;
+        double factor;  ///< or what is added to it, if below 0.5
+    } cases[] = {
+        {"phase", "/functions/0/value/3", "rayleigh 0 3", 1. + 1e-9},
+        {"fresnel", "/directional/0/R_inside/2", "n = 1.1, 30 degrees, inside", 1. + 1e-9},
+        {"fresnel", "/diffuse/0/A_exact", "eta = 1.3 A_exact", 1. + 1e-9},
+        {"dipole", "/1/Rd/4", "Apple G Rd at r = 0.2", 1. + 1e-8},
+        {"better_dipole", "/0/R_total", "sigma_s' 1 sigma_a 0.01 eta 1.3 fit R_total", 1. + 1e-8},
+        {"photon_beam_diffusion", "/0/single/1", "sigma_s 1 g 0 single at r = 0.2", 1. + 1e-5},
+        {"directional_dipole", "/1/S_d", "row 1", 1. + 1e-8},
+        {"normalized_diffusion", "/0/r_of_xi/2", "A = 0.1 r_of_xi at xi = 0.5", 1. + 1e-9},
+        {"chiang2016", "/1/sigma_t", "A = 0.05, d = 1 sigma_t", 1. + 1e-9},
+        {"kubelka_munk", "/stacks/0/R_bottom", "stack 0 R_bottom", 1. + 1e-9},
+        {"kubelka_munk", "/saunderson/0/k2", "Saunderson 1.3 R 0.1 k2", 1. + 1e-9},
+        {"hanrahan_krueger", "/1/samples/3/f_t", "g -0.3 tau 0.5 n 1.5 theta_i 10 theta_o 65 f_t",
+         1. + 1e-8},
+        {"slab_adding_doubling", "/0/incidence/2/R_total", "stack 0 theta_i 40 R_total", 2e-8},
+        {"semi_infinite", "/0/R_diffuse_incidence", "albedo 0.2 g 0 n 1 R_diffuse_incidence", 2e-8},
+        {"monte_carlo", "/0/R_diffuse", "run 0 R_diffuse", 1.02},
+        {"monte_carlo", "/0/R_of_r_mean_per_area/2", "run 0 ring 2", 1.1},
+        {"dipole_triangle_integrals", "/0/integral", "row 0", 1. + 1e-7},
+        {"skin_jacques", "/0/blood_mua_cm", "400 nm, melanin 0.013 blood_mua_cm", 1. + 1e-9},
+        {"materials_jensen2001", "/Marble/eta", "Marble eta", 1. + 1e-6},
+        {"published_anchors", "/2/value", "H(1)", 2e-4},
+        {"published_anchors", "/1/oracle", "(oracle)", 1e-6},
+    };
+    for (const auto& c : cases) {
+        const std::string at = fmt::format("{} {}", c.group, c.place);
+        json wrong{{c.group, few().at(c.group)}};
+        ASSERT_EQ(check(wrong).code, 0) << at;
+        json& number = wrong[c.group][json::json_pointer(c.place)];
+        ASSERT_TRUE(number.is_number()) << at;
+        const double value = number;
+        number = c.factor < 0.5 ? value + c.factor : value * c.factor;
+        const Outcome r = check(wrong);
+        EXPECT_EQ(r.code, 1) << at << r.out;
+        EXPECT_NE(r.out.find("WRONG at "), std::string::npos) << at << r.out;
+        EXPECT_NE(r.out.find(c.where), std::string::npos) << at << r.out;
+    }
+}
+
+TEST_F(ScatteringVectors, AFileIsToldByItsKeys) {
+    EXPECT_EQ(
+        check({{"colours", 1}}).err,
+        "nacre: 'v.json' has neither \"models\", groups of reflectance vectors by name, nor a "
+        "known group of scattering vectors\n");
+    const Outcome r = check({{"phase", {{"functions", {{{"name", "hg"}}}}}}});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_TRUE(r.err.starts_with("nacre: group 'phase' of 'v.json': ")) << r.err;
+    EXPECT_EQ(check({{"phase", {{"functions", {{{"name", "hgg"}, {"param", 0}}}}}}}).err,
+              "nacre: phase vectors: unknown function 'hgg'\n");
+    EXPECT_TRUE(check({{"photon_beam_diffusion",
+                        {{{"sigma_s", -1.}, {"sigma_a", 0.}, {"g", 0.}, {"eta", 1.3}}}}})
+                    .err.starts_with("nacre: translucent medium: sigma_s = -1 must be"));
+}
+
+// The whole file, of which everything but differential equations is answered.
+TEST_F(ScatteringVectors, TheReferenceFileIsAnswered) {
+    const std::string file = NACRE_SHARED_DIR "/reference/scattering_vectors.json";
+    if (!fs::exists(file)) GTEST_SKIP() << "no shared reference data";
+    const Outcome r = nacre(fmt::format("check --vectors '{}'", file));
+    EXPECT_EQ(r.code, 0) << r.out;
+    // A heading, 17 groups, an empty line and what is not covered.
+    EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 1 + 17 + 2) << r.out;
+    EXPECT_TRUE(line_of("dipole", r.out).starts_with("dipole                      1188 ")) << r.out;
+}
+
+}  // namespace
+}  // namespace nacre
