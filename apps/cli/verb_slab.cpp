@@ -45,13 +45,15 @@ std::vector<std::pair<const char*, double>> numbers_of(const SlabAnswer& a) {
 
 std::vector<Row> solve(const SlabTask& task, const std::vector<const SlabMethod*>& methods) {
     std::vector<Row> rows;
-    for (const SlabMethod* m : methods) try {
+    for (const SlabMethod* m : methods) {
+        try {
             rows.push_back({m, m->solve(task), ""});
         } catch (const InputError& error) {
             // One method may pass; when it is the only one that is asked for, that is an error.
             if (methods.size() == 1) throw;
             rows.push_back({m, {}, error.what()});
         }
+    }
     return rows;
 }
 

@@ -46,9 +46,10 @@ class SubsurfaceVerbs : public test::CommandLine {
     static bool has_gnuplot() { return std::system("gnuplot --version > /dev/null 2>&1") == 0; }
 };
 
+// The folders in a run's name are its author's, not ours to write to.
 constexpr const char* mci = R"(1.0 # version
 1   # runs
-here.mco A
+../up/here.mco A
 20000
 0.01 0.02
 5 6 3
@@ -372,13 +373,13 @@ TEST_F(SubsurfaceVerbs, SlabRunsTheFilesOfMcml) {
     std::ofstream(folder_ / "bad.mci") << "1.0\n1\nout.mco A\n-5\n";
     std::string two = mci;
     two[two.find("1   # runs")] = '2';
-    two += std::string(mci).substr(std::string(mci).find("here"));
+    two += std::string(mci).substr(std::string(mci).find("../up"));
     std::ofstream(folder_ / "two.mci") << two;
     expect_refused({
         {"slab bad.mci",
          "bad.mci:4: the number of photons is '-5'; it must be a whole number from 1 to "
          "9007199254740992"},
-        {"slab two.mci", "two.mci: two runs write to 'here.mco'"},
+        {"slab two.mci", "two.mci: two runs write to '../up/here.mco'"},
         {"slab two.mci -o one.mco", "two.mci holds 2 runs: give -o a folder for their files"},
         {"slab sub/in.mci -o nowhere", "'nowhere' is no folder, nor a file .mco or .csv"},
     });
