@@ -52,7 +52,7 @@ def compare(name, reference, mask=None):
 
 def marble(quick):
     scene = ROOT / "scenes" / "translucency"
-    spp, complete, reference = (8, 16, 32) if quick else (32, 64, 256)
+    spp, complete, reference = (8, 16, 32) if quick else (32, 32, 96)
     render(scene / "03_marble_complete.xml", "marble_reference", "-D", f"spp={reference}", "--seed", 77)
     rows = []
     for title, file, samples in [("BRDF", "01_marble_brdf", spp), ("BSSRDF, two passes", "02_marble_two_pass", spp),

@@ -65,8 +65,12 @@ ShapePoints spread_points(const TechniqueInput& in, double spacing) {
         made = tessellate(*rays.primitive(in.shape));
         mesh = &*made;
     }
-    const SurfacePointSet set =
-        points_for_spacing(*mesh, spacing, point_method(in.settings.points), in.scene.sampler.seed);
+    // Errors of single shares average out in the sum: the cheap settings do.
+    SurfacePointOptions options;
+    options.samples_per_point = 16;
+    options.elimination.candidates = 4;
+    const SurfacePointSet set = points_for_spacing(*mesh, spacing, point_method(in.settings.points),
+                                                   in.scene.sampler.seed, options);
     ShapePoints result;
     result.area = set.area;
     for (std::size_t i = 0; i < set.p.size(); ++i) {
