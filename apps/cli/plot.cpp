@@ -74,9 +74,10 @@ std::string gnuplot_script(const Table& t, const fs::path& output, const std::st
             break;
         case PlotKind::polar:
             s += fmt::format(
-                "set size ratio -1\nset zeroaxis\nset yrange [0:*]\nset key outside bottom center "
+                "set size ratio -1\nset zeroaxis\n{}set key outside bottom center "
                 "horizontal\nset xlabel \"{}\" noenhanced\n",
-                t.y_label);
+                // Lobes of reflection alone fill half of the picture.
+                !t.rows.empty() && t.rows.front()[0] < -90. ? "" : "set yrange [0:*]\n", t.y_label);
             s += curves(t, "(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
             break;
         case PlotKind::image:

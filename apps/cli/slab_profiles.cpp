@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "nacre/layers/adding_doubling.h"
+#include "nacre/layers/hanrahan_krueger.h"
 #include "nacre/layers/slab_monte_carlo.h"
 #include "nacre/math/error.h"
 
@@ -124,6 +125,23 @@ Table angular_table(const SlabTask& task, const std::vector<const SlabMethod*>& 
         columns.add("mc_transmitted", r.transmitted_angle);
     }
     return std::move(columns).table();
+}
+
+Table lobe_table(const LayerStack& stack, const std::vector<double>& incidences) {
+    constexpr double degree = std::numbers::pi / 180.;
+    const HanrahanKruegerStack layers(stack);
+    Table t{"light scattered once", {"theta_o_deg"}, {}, PlotKind::polar, "f cos(theta_i) / sr^-1"};
+    for (const double a : incidences) t.columns.push_back(fmt::format("theta_i={:g}", a));
+    for (double out = -179.75; out < 180.; out += 0.5) {
+        std::vector<double> row{out};
+        for (const double a : incidences) {
+            const Vec3d wi{-std::sin(a * degree), 0., std::cos(a * degree)};
+            row.push_back(layers.eval(wi, {std::sin(out * degree), 0., std::cos(out * degree)}) *
+                          wi.z);
+        }
+        t.rows.push_back(std::move(row));
+    }
+    return t;
 }
 
 Table spectrum_table(const SkinParameters& skin, const SlabTask& task,

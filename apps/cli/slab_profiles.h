@@ -18,6 +18,12 @@ Table radial_table(const SlabTask& task, double rmax, int bins);
 /// with it but without `specular`. Throws InputError if none of them tells it.
 Table angular_table(const SlabTask& task, const std::vector<const SlabMethod*>& methods, int bins);
 
+/// Light scattered once (Hanrahan and Krueger 1993) in the plane of incidence: radiance over
+/// incident radiance per solid angle of the light (sr^-1), f cos(theta_i), over the angle from the
+/// normal, light at negative angles, from -180 (below) to 180 degrees; one column for each angle of
+/// incidence in degrees.
+Table lobe_table(const LayerStack& stack, const std::vector<double>& incidences);
+
 /// Reflectance of skin over the wavelength, `from` to `to` nm. `task` gives the light, the photons
 /// and, where they are not 0, the indices outside. A method that refuses a stack shows as not a
 /// number.

@@ -19,7 +19,8 @@ struct Options {
     std::optional<double> eta_above, eta_below, angle, nm, step, rmax;
     std::uint64_t photons = 1'000'000, seed = 0;
     int bins = 0;
-    bool diffuse = false, spectrum = false, radial = false, angular = false, json = false;
+    bool diffuse = false, spectrum = false, radial = false, angular = false, lobe = false;
+    bool json = false;
 };
 
 /// A method's answer, or why it has none.
@@ -137,8 +138,8 @@ void refuse_contradictions(const Options& o, const CLI::App& app) {
         throw InputError(
             "an empty stack: give --layer for each layer, or --skin, or an .mci file; see 'nacre "
             "help slab'");
-    if (o.spectrum + o.radial + o.angular > 1)
-        throw InputError("give one of --spectrum, --radial and --angular");
+    if (o.spectrum + o.radial + o.angular + o.lobe > 1)
+        throw InputError("give one of --spectrum, --radial, --angular and --lobe");
     const auto belongs = [&](const char* option, bool given, const char* other) {
         if (app.count(option) && !given)
             throw InputError(fmt::format("{} belongs to {}", option, other));
@@ -148,8 +149,9 @@ void refuse_contradictions(const Options& o, const CLI::App& app) {
     belongs("--step", o.spectrum, "--spectrum");
     belongs("--rmax", o.radial, "--radial");
     belongs("--bins", o.radial || o.angular, "--radial and --angular");
-    if ((o.radial || o.angular) && o.diffuse)
-        throw InputError("--radial and --angular need a beam: leave out --diffuse");
+    if ((o.radial || o.angular || o.lobe) && o.diffuse)
+        throw InputError("--radial, --angular and --lobe need a beam: leave out --diffuse");
+    belongs("--method", !o.lobe, "totals: --lobe is light scattered once, by hk");
     if (app.count("--bins") && (o.bins < 1 || o.bins > 10000))
         throw InputError(fmt::format("--bins {} must be from 1 to 10000", o.bins));
     if (o.rmax && !(*o.rmax > 0. && std::isfinite(*o.rmax)))
@@ -159,7 +161,7 @@ void refuse_contradictions(const Options& o, const CLI::App& app) {
     if (o.json && !o.output.empty()) throw InputError("give either --json or -o");
     if (o.file.empty()) return;
     for (const char* option : {"--angle", "--diffuse", "--eta-above", "--eta-below", "--radial",
-                               "--angular", "--method", "--json"})
+                               "--angular", "--lobe", "--method", "--json"})
         if (app.count(option))
             throw InputError(
                 fmt::format("{}: the file says all of a run; {} is for layers", o.file, option));
@@ -171,10 +173,10 @@ int run(const Options& o, const CLI::App& app) {
         return run_mcml({o.file, o.output,
                          app.count("--photons") ? std::optional(o.photons) : std::nullopt, o.seed});
     const std::vector<const SlabMethod*> methods = find_slab_methods(o.methods);
-    const bool table = o.spectrum || o.radial || o.angular;
+    const bool table = o.spectrum || o.radial || o.angular || o.lobe;
     check_table_output(o.output);
     if (!table && !o.output.empty() && std::filesystem::path(o.output).extension() != ".csv")
-        throw InputError("a picture needs one of --spectrum, --radial and --angular");
+        throw InputError("a picture needs one of --spectrum, --radial, --angular and --lobe");
     SlabTask task = task_of(o);
     if (app.count("--skin")) {
         const SkinParameters skin = parse_skin(o.skin);
@@ -193,6 +195,10 @@ int run(const Options& o, const CLI::App& app) {
     const int bins = o.bins ? o.bins : o.radial ? 50 : 30;
     if (o.radial)
         write_or_print(radial_table(task, o.rmax.value_or(0.), bins), o);
+    else if (o.lobe)
+        write_or_print(lobe_table(task.stack, o.angle ? std::vector<double>{*o.angle}
+                                                      : std::vector<double>{10., 40., 65.}),
+                       o);
     else if (o.angular)
         write_or_print(angular_table(task, methods, bins), o);
     else if (const std::vector<Row> rows = solve(task, methods); o.output.empty())
@@ -231,6 +237,9 @@ Action set_up_slab(CLI::App& app, const Invocation&) {
     app.add_flag("--radial", o->radial, "power that leaves over the radius, by Monte Carlo");
     app.add_option("--rmax", o->rmax, "of it, mm (ten transport mean free paths)");
     app.add_flag("--angular", o->angular, "power that leaves over the angle of exit");
+    app.add_flag("--lobe", o->lobe,
+                 "light scattered once in the plane of incidence (10, 40 and 65 degrees, or "
+                 "--angle)");
     app.add_option("--bins", o->bins, "of radius (50) or angle (30)");
     app.add_flag("--json", o->json, "for programs");
     app.add_option("-o,--output", o->output,
