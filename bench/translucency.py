@@ -5,8 +5,8 @@
     bench/translucency.py points             Jensen and Buhler 2002: cost against the number of surface points
     bench/translucency.py bunny              the benchmark bunny (../shared/bench): every technique's mean and error
 
-Pictures and references are kept in build/translucency. Prints tables of CPU seconds and of relMSE (bench/relmse.py)
-against complete simulation with another seed.
+Pictures and references are kept in build/translucency. Prints tables of CPU seconds, relMSE a pixel
+(bench/relmse.py) and the RMS error of blocks of pixels against complete simulation with another seed.
 """
 import argparse
 import json
@@ -32,22 +32,28 @@ def render(scene, name, *options):
     return r
 
 
+BLOCK = 16  # pixels a side: large enough for noise to average out, small enough to see where light is lost
+
+
 def compare(name, reference, mask=None):
-    """Mean RGB over the mask, and relMSE."""
-    _, _, picture = relmse.read_exr(OUT / f"{name}.exr")
+    """Mean RGB of both over the mask (a predicate of pixel index), relMSE over pixels, and the relative RMS error of
+    the means of blocks, which tells bias from noise."""
+    width, height, picture = relmse.read_exr(OUT / f"{name}.exr")
     _, _, truth = relmse.read_exr(OUT / f"{reference}.exr")
-    inside = [True] * len(picture["G"])
-    if mask:
-        _, _, m = relmse.read_exr(OUT / f"{mask}.exr")
-        inside = [g > 0.5 for g in m["G"]]
-    means, errors = [], []
+    inside = [mask is None or mask(i) for i in range(width * height)]
+    means, errors, blocks = [], [], []
     for c in "RGB":
         pairs = [(p, t) for p, t, i in zip(picture[c], truth[c], inside) if i]
         means.append((sum(p for p, _ in pairs) / len(pairs), sum(t for _, t in pairs) / len(pairs)))
         errors += [(p - t) ** 2 / (t * t + 0.01) for p, t in pairs]
+        for y in range(0, height - BLOCK + 1, BLOCK):
+            for x in range(0, width - BLOCK + 1, BLOCK):
+                at = [j * width + i for j in range(y, y + BLOCK) for i in range(x, x + BLOCK)]
+                if all(inside[k] for k in at):
+                    blocks.append(sum(picture[c][k] for k in at) / sum(truth[c][k] for k in at) - 1)
     errors.sort()
     keep = errors[:len(errors) - len(errors) // 1000]
-    return means, sum(keep) / len(keep)
+    return means, sum(keep) / len(keep), math.sqrt(sum(b * b for b in blocks) / len(blocks))
 
 
 def marble(quick):
@@ -58,16 +64,21 @@ def marble(quick):
     for title, file, samples in [("BRDF", "01_marble_brdf", spp), ("BSSRDF, two passes", "02_marble_two_pass", spp),
                                  ("complete simulation", "03_marble_complete", complete)]:
         r = render(scene / f"{file}.xml", file, "-D", f"spp={samples}")
-        means, error = compare(file, "marble_reference")
-        rows.append((title, samples, r["cpu"], error, [p / t for p, t in means]))
-    print(f"{'marble, lit from behind':<24} {'spp':>4} {'CPU s':>8} {'relMSE':>9}  mean over complete, RGB")
-    for title, samples, cpu, error, ratio in rows:
-        print(f"{title:<24} {samples:>4} {cpu:>8.1f} {error:>9.4f}  " + " ".join(f"{x:.3f}" for x in ratio))
-    print("CPU relative to the BRDF: " + " : ".join(f"{cpu / rows[0][2]:.1f}" for _, _, cpu, _, _ in rows) +
+        if not rows:  # the bust is where the picture is not the background
+            _, _, picture = relmse.read_exr(OUT / f"{file}.exr")
+            background = picture["G"][0]
+            bust = [abs(g - background) > 1e-4 for g in picture["G"]]
+        means, error, blocks = compare(file, "marble_reference", lambda i: bust[i])
+        rows.append((title, samples, r["cpu"], error, blocks, [p / t for p, t in means]))
+    print(f"{'marble, lit from behind':<24} {'spp':>4} {'CPU s':>8} {'RMS of blocks':>14}  mean over complete, RGB")
+    for title, samples, cpu, _, blocks, ratio in rows:
+        print(f"{title:<24} {samples:>4} {cpu:>8.1f} {blocks:>14.3f}  " + " ".join(f"{x:.3f}" for x in ratio))
+    # Two simulations differ by the noise of both; error falls as one over the samples.
+    noise = rows[2][3] / (1 / complete + 1 / reference)
+    to_clean = rows[2][2] / complete * noise / 0.01
+    print(f"complete simulation to a relMSE of 0.01 a pixel: {noise / 0.01:.0f} spp, {to_clean:.0f} CPU s")
+    print(f"CPU, BRDF : two passes : complete = 1 : {rows[1][2] / rows[0][2]:.1f} : {to_clean / rows[0][2]:.0f}"
           "   (Jensen et al. 2001, minutes: 2 : 5 : 1250 = 1 : 2.5 : 625)")
-    # Complete simulation at the two passes' error: error falls as one over the samples.
-    to_same = rows[2][2] * rows[2][3] / rows[1][3]
-    print(f"complete simulation to the error of two passes: {to_same:.1f} CPU s, {to_same / rows[1][2]:.1f} times theirs")
 
 
 def points(_):
@@ -104,9 +115,10 @@ def bunny(_):
     mask = mask.replace('name="max_depth" value="-1"', 'name="max_depth" value="1"').replace('"volpath"', '"path"')
     (OUT / "mask.xml").write_text(mask)
     render(OUT / "mask.xml", "mask", "--spp", 16)
+    _, _, mask = relmse.read_exr(OUT / "mask.exr")
     if not (OUT / "bunny_reference.exr").exists():
         render(scene, "bunny_reference", "--spp", 128, "--seed", 77)
-    print(f"{'technique':<34} {'spp':>4} {'CPU s':>7} {'before':>7} {'relMSE':>8}  mean over complete, RGB")
+    print(f"{'technique':<34} {'spp':>4} {'CPU s':>7} {'before':>7} {'relMSE':>8} {'blocks':>7}  mean over complete, RGB")
     for title, samples, options in [
             ("brdf, dipole", 64, ["--technique", "brdf"]),
             ("two_pass, dipole", 4, ["--technique", "two_pass"]),
@@ -121,8 +133,8 @@ def bunny(_):
             ("surface, normalised diffusion", 64, ["--technique", "surface", "--profile", "normalised_diffusion"]),
             ("complete simulation", 16, ["--technique", "volpath"])]:
         r = render(scene, "bunny", "--spp", samples, *options)
-        means, error = compare("bunny", "bunny_reference", "mask")
-        print(f"{title:<34} {samples:>4} {r['cpu']:>7.1f} {r['precompute_cpu_seconds']:>7.1f} {error:>8.4f}  " +
+        means, error, blocks = compare("bunny", "bunny_reference", lambda i: mask["G"][i] > 0.5)
+        print(f"{title:<34} {samples:>4} {r['cpu']:>7.1f} {r['precompute_cpu_seconds']:>7.1f} {error:>8.4f} {blocks:>7.3f}  " +
               " ".join(f"{p / t:.3f}" for p, t in means), flush=True)
 
 

@@ -38,4 +38,9 @@ struct LayerTotals {
     double unscattered = 0.;  ///< leaves at the bottom without having been scattered
 };
 
+/// A mean of random numbers with its standard error.
+struct Estimate {
+    double mean = 0., error = 0.;
+};
+
 }  // namespace nacre

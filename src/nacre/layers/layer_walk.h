@@ -28,11 +28,6 @@ struct LayerWalkOptions {
     std::size_t cosine_bins = 20, azimuth_bins = 1;  ///< >= 1
 };
 
-/// A mean over the photons and its standard error.
-struct Estimate {
-    double mean = 0., error = 0.;
-};
-
 /// Light that leaves by one face of the stack after at least one scattering, in bins of equal solid
 /// angle: equal steps of |cosine| from 0 and of azimuth from 0 to 2 pi.
 struct AngularBins {

@@ -45,10 +45,6 @@ struct SlabMonteCarloOptions {
     double roulette_weight = 0.1, roulette_gain = 5.;
 };
 
-struct Estimate {
-    double mean = 0., error = 0.;  ///< error: standard error of the mean
-};
-
 /// Shares of the power that falls in; profiles are densities, their bins in the order of the names,
 /// the second index running faster.
 struct SlabMonteCarloResult {
