@@ -63,7 +63,7 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
         o.timeout_s = options.timeout_s;
         o.stop = &stop;
         o.progress = [&](const RenderProgress& p) { bar.show(p); };
-        return render(scene, make_technique_integrator, o);
+        return render_with(scene, make_technique_integrator, o);
     }();
 
     const std::string invalid = describe_invalid(result.film);

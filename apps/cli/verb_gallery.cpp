@@ -145,7 +145,7 @@ std::optional<Image> picture(const fs::path& file, const Options& o, const Invoc
     options.threads = o.threads;
     options.stop = &interrupt_flag();
     options.progress = [&](const RenderProgress& p) { bar.show(p); };
-    const RenderResult result = render(scene, make_technique_integrator, options);
+    const RenderResult result = render_with(scene, make_technique_integrator, options);
     if (!result.complete) return {};
     return render_image(result, scene,
                         {invocation.command_line, version, file.filename().string()});

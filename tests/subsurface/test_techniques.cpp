@@ -102,7 +102,7 @@ TEST_F(Techniques, LightFromBehindReachesThroughAThinSlab) {
             xml::integrator("path") +
             "<emitter type=\"directional\"><vector name=\"direction\" value=\"0, 0, 1\"/>" +
             xml::rgb("irradiance", {1, 1, 1}) + "</emitter>" +
-            slab(d, subsurface("dipole", word("method", technique) + xml::number("error", 0.05) +
+            slab(d, subsurface("dipole", word("method", technique) + xml::number("error", 0.01) +
                                              xml::number("spacing", 0.5))));
         const RadianceEstimate e =
             look(s, onto_the_middle({0, 0, 1}, 8), {.pixels = 1000, .samples = 64});

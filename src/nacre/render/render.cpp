@@ -219,7 +219,7 @@ RenderResult render(const Scene& scene, const Integrator& integrator,
                         [&] { return RenderJob(scene, integrator, options).run(); });
 }
 
-RenderResult render(const Scene& scene, MakeIntegrator make, const RenderOptions& options) {
+RenderResult render_with(const Scene& scene, MakeIntegrator make, const RenderOptions& options) {
     return with_threads(options.threads, [&] {
         const Clock::time_point start = Clock::now();
         const double cpu_start = process_cpu_seconds();
@@ -235,7 +235,7 @@ RenderResult render(const Scene& scene, MakeIntegrator make, const RenderOptions
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options) {
-    return render(scene, make_integrator, options);
+    return render_with(scene, make_integrator, options);
 }
 
 }  // namespace nacre

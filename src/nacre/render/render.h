@@ -43,7 +43,8 @@ struct RenderResult {
 RenderResult render(const Scene& scene, const RenderOptions& options = {});
 /// The same with an integrator that `make` makes; what that takes is precomputation.
 using MakeIntegrator = std::unique_ptr<Integrator> (*)(const Scene& scene);
-RenderResult render(const Scene& scene, MakeIntegrator make, const RenderOptions& options = {});
+RenderResult render_with(const Scene& scene, MakeIntegrator make,
+                         const RenderOptions& options = {});
 /// The same with a given integrator in place of the one that the scene names.
 RenderResult render(const Scene& scene, const Integrator& integrator,
                     const RenderOptions& options = {});
