@@ -1,6 +1,7 @@
 // nacre models show, nacre eval, nacre check.
 #include <nlohmann/json.hpp>
 
+#include "nacre/bssrdf/profile.h"
 #include "nacre/scene/image.h"
 #include "tests/cli/command_line.h"
 
@@ -113,6 +114,39 @@ TEST_F(ModelVerbs, IlluminationModelsAreListedAndShownByNumber) {
     // A name that the reflectance models have too is theirs.
     EXPECT_NE(nacre("models show phong").out.substr(0, 9), "13 phong:");
     EXPECT_EQ(nacre("models show 24").code, 2);
+}
+
+TEST_F(ModelVerbs, ModelsListsAndShowsProfilesTechniquesAndSkin) {
+    const std::string list = nacre("models").out;
+    const json all = json::parse(nacre("models --json").out);
+    ASSERT_EQ(all["profile"].size(), profiles().size());
+    ASSERT_GE(all["technique"].size(), 4u);
+    EXPECT_EQ(all["spectral_medium"][0]["name"], "skin");
+    const auto shown = [&](std::string_view name, std::initializer_list<std::string_view> parts) {
+        EXPECT_NE(list.find(fmt::format("\n  {} ", name)), std::string::npos) << name;
+        const Outcome r = nacre(fmt::format("models show {}", name));
+        EXPECT_EQ(r.code, 0) << r.err;
+        for (const std::string_view part : parts)
+            EXPECT_NE(r.out.find(part.substr(0, 40)), std::string::npos) << name << part << r.out;
+    };
+    for (const ProfileDescription* p : profiles()) {
+        shown(p->name, {p->title, p->authors, p->paper, std::to_string(p->year)});
+        const json j = json::parse(nacre(fmt::format("models show {} --json", p->name)).out);
+        EXPECT_EQ(j["kind"], "profile");
+        EXPECT_EQ(j["options"].size(), p->options.size());
+        EXPECT_EQ(j["errata"].size(), p->errata.size());
+    }
+    shown("dipole", {"z_r = 1/sigma_t'", "boundary", "two_moment", "errata of the literature"});
+    for (const json& t : all["technique"])
+        shown(t["name"].get<std::string>(),
+              {t["title"].get<std::string>(), t["authors"].get<std::string>(),
+               t["paper"].get<std::string>()});
+    shown("two_pass", {"precomputes surface points", "may change  view", "--technique two_pass",
+                       "irradiance_samples"});
+    EXPECT_EQ(json::parse(nacre("models show two-pass --json").out)["kind"], "technique");
+    shown("skin", {"Skin Optics", "nacre slab --skin"});
+    EXPECT_TRUE(nacre("models show dipol")
+                    .err.starts_with("nacre: unknown model \"dipol\": did you mean \"dipole\"?"));
 }
 
 TEST_F(ModelVerbs, ShowPrintsTheManualPage) {
