@@ -90,6 +90,9 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
                    format_seconds(result.seconds + result.precompute_seconds),
                    format_seconds(result.cpu_seconds + result.precompute_cpu_seconds),
                    static_cast<double>(result.counts.rays) / 1e6);
+    if (!options.quiet)
+        for (const Statistic& s : result.statistics)
+            fmt::print(stderr, "nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
     if (options.json) print_json(result, scene, file);
     return stopped ? interrupted : success;
 }

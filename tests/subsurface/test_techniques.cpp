@@ -192,6 +192,15 @@ TEST_F(Techniques, EntersWhatFallsOnASphereFromEverywhere) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(e.mean[c], 1., 0.03);
 }
 
+TEST_F(Techniques, OneOptionSwitchesToCompleteSimulation) {
+    const auto look_by = [&](const char* integrator, const char* method) {
+        const Scene s = scene(xml::integrator(integrator) + xml::constant_light() +
+                              slab(2, subsurface("dipole", word("method", method))));
+        return look(s, onto_the_middle({0, 0, 1}, 10), {.pixels = 20, .samples = 8}).mean;
+    };
+    EXPECT_EQ(look_by("path", "volpath"), look_by("volpath", "two_pass"));
+}
+
 TEST_F(Techniques, ChooseByName) {
     Scene s = scene(xml::integrator("volpath") + xml::constant_light() +
                     slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients)));
@@ -226,8 +235,21 @@ TEST_F(Techniques, SayWhatTheyCannotDo) {
     starts(message("normalised_diffusion", word("method", "two_pass")),
            "technique 'two_pass' takes the profiles dipole and better_dipole, not "
            "'normalised_diffusion'");
-    starts(message("dipole", word("method", "volpath")),
-           "'volpath' simulates the whole scene: use <integrator type=\"volpath\">");
+    EXPECT_EQ(
+        error_of([&] {
+        make_technique_integrator(scene(xml::integrator("path") + xml::constant_light() +
+                                        xml::shape("rectangle", subsurface("dipole", ""))));
+        })),
+        "'rectangle' is flat: it has no inside for light to be scattered in; give it a "
+        "thickness");
+    const std::string other = slab(1, subsurface("dipole", word("method", "brdf")));
+    EXPECT_EQ(behind_the_place(error_of([&] {
+                  make_technique_integrator(
+                      scene(xml::integrator("path") + xml::constant_light() + other +
+                            slab(1, subsurface("dipole", word("method", "volpath")))));
+              })),
+              "'volpath' simulates the whole scene: give all translucent shapes this method, or "
+              "none");
 }
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include "nacre/optics/names.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/surface_sampling.h"
+#include "nacre/render/volume_path_tracer.h"
 
 namespace nacre {
 namespace {
@@ -99,6 +100,24 @@ TranslucencyPtr make_stand_in(const TechniqueInput& in) {
     return std::make_shared<StandIn>(tables_of(in), mirror, enters * enters * in.exit_scale);
 }
 
+/// A sheet has no inside for light to be scattered in.
+void refuse_flat(const Scene& scene, std::uint32_t shape) {
+    const Vec3f size = scene.rays.bounds(shape).diagonal();
+    const float least = std::min({size.x, size.y, size.z}),
+                most = std::max({size.x, size.y, size.z});
+    if (!(least > 1e-6f * most))
+        throw InputError(fmt::format(
+            "{}'{}' is flat: it has no inside for light to be scattered in; give it a thickness",
+            scene.shapes[shape].subsurface->prefix(), scene.shapes[shape].name));
+}
+
+/// Whether the shape asks for complete simulation.
+bool wants_simulation(const ShapeBinding& shape) {
+    return shape.subsurface && !at_place(*shape.subsurface, [&]() -> const TechniqueDescription& {
+                                    return find_technique(shape.subsurface->technique);
+                                }).make;
+}
+
 class TechniqueIntegrator final : public Integrator {
   public:
     explicit TechniqueIntegrator(const Scene& scene) {
@@ -116,9 +135,10 @@ class TechniqueIntegrator final : public Integrator {
                         return find_technique(settings->technique);
                     });
                 if (!technique.make)
-                    throw InputError(fmt::format(
-                        "{}'{}' simulates the whole scene: use <integrator type=\"volpath\">",
-                        settings->prefix(), technique.name));
+                    throw InputError(
+                        fmt::format("{}'{}' simulates the whole scene: give all translucent shapes "
+                                    "this method, or none",
+                                    settings->prefix(), technique.name));
                 below[i] = make(scene, i, technique.make, &light);
             }
         tracer_ = std::make_unique<PathTracer>(scene, std::move(below));
@@ -134,6 +154,7 @@ class TechniqueIntegrator final : public Integrator {
     TranslucencyPtr make(const Scene& scene, std::uint32_t shape,
                          TranslucencyPtr (*maker)(const TechniqueInput&), const PathTracer* light) {
         const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
+        refuse_flat(scene, shape);
         const float eta = boundary_eta(scene.shapes[shape]);
         const float scale =
             settings.exit == "paper" ? 1.f : float(1. / (1. - diffuse_reflectance_external(eta)));
@@ -166,10 +187,13 @@ void choose_technique(Scene& scene, const SubsurfaceSettings& settings) {
 }
 
 std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene) {
-    const bool any = std::ranges::any_of(
-        scene.shapes, [](const ShapeBinding& s) { return s.subsurface != nullptr; });
-    if (scene.integrator.type == "path" && any) return std::make_unique<TechniqueIntegrator>(scene);
-    return make_integrator(scene);
+    const auto translucent = [](const ShapeBinding& s) { return s.subsurface != nullptr; };
+    if (scene.integrator.type != "path" || std::ranges::none_of(scene.shapes, translucent))
+        return make_integrator(scene);
+    const auto count = std::ranges::count_if(scene.shapes, wants_simulation);
+    if (count > 0 && count == std::ranges::count_if(scene.shapes, translucent))
+        return std::make_unique<VolumePathTracer>(scene);
+    return std::make_unique<TechniqueIntegrator>(scene);
 }
 
 std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const TechniqueInput& in,
