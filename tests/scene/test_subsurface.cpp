@@ -38,10 +38,11 @@ TEST_F(Subsurface, TakesTheNamesOfMitsuba06) {
     const Scene s = load_with(R"(<shape type="sphere"><subsurface type="dipole">
         <spectrum name="sigmaS" value="2"/><spectrum name="sigmaA" value="0.5"/>
         <float name="intIOR" value="1.3"/><float name="extIOR" value="1"/>
-        <float name="scale" value="3"/></subsurface></shape>)",
+        <integer name="irrSamples" value="32"/><float name="scale" value="3"/></subsurface></shape>)",
                               "0.6.0");
     const ShapeBinding& shape = s.shapes.at(0);
     EXPECT_FLOAT_EQ(boundary_eta(shape), 1.3f);
+    EXPECT_EQ(shape.subsurface->irradiance_samples, 32);
     EXPECT_NEAR(shape.interior->coefficients({}, Wavelengths::rgb_bands()).sigma_t[0], 7.5, 1e-5);
 }
 

@@ -81,6 +81,29 @@ TEST_F(Techniques, AFlatObjectInEvenLightReturnsTheProfilesTotal) {
         }
 }
 
+TEST_F(Techniques, ASphereReturnsTheProfileWithinItsDiameter) {
+    // The part of a sphere within a distance d of one of its points has the area pi d^2, as on a
+    // plane; so the integral of R over the sphere is that over a disk of radius 2 a.
+    constexpr double a = 1.5;
+    const double f = fresnel_dielectric(1., eta);
+    for (const char* technique : {"surface", "two_pass"}) {
+        const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                              xml::sphere({}, a,
+                                          subsurface("dipole", word("method", technique) +
+                                                                   xml::number("error", 0.01) +
+                                                                   xml::number("spacing", 0.2))));
+        // A narrow bundle: everything is seen along the normal to 4e-4.
+        const RadianceEstimate e =
+            look(s, ray_bundle({0, 0, 9}, {0, 0, -1}, 0.03f), {.pixels = 1000, .samples = 64});
+        for (int c = 0; c < 3; ++c) {
+            const double expected =
+                f + (1. - f) * make_profile("dipole", medium(c))->cumulative(2. * a);
+            EXPECT_NEAR(e.mean[c], expected, 4.5 * e.error[c] + 4e-3 * expected) << technique << c;
+            EXPECT_LT(e.error[c], 0.01 * expected) << technique;
+        }
+    }
+}
+
 TEST_F(Techniques, ThePapersExitLosesTheMeanReflectance) {
     const auto at = [&](const char* exit) {
         const Scene s = scene(
