@@ -112,13 +112,16 @@ void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_materi
     settings->technique = node.get_string("method", settings->technique);
     if (node.location.file) settings->where = node.location.str();
     for (const SubsurfaceOption& o : options) {
-        if (!node.has(o.name)) continue;
+        // Mitsuba 0.6 writes irrSamples.
+        const bool other = o.name == "irradiance_samples" && node.has("irr_samples");
+        const std::string_view name = other ? "irr_samples" : o.name;
+        if (!node.has(name)) continue;
         const std::string text =
-            o.words.empty() ? fmt::format("{}", node.get_float(o.name)) : node.get_string(o.name);
+            o.words.empty() ? fmt::format("{}", node.get_float(name)) : node.get_string(name);
         try {
             set_option(*settings, o.name, text);
         } catch (const InputError& error) {
-            node.fail_at(o.name, error.what());
+            node.fail_at(name, error.what());
         }
     }
     shape.interior = add_medium_of(node, scene, context);
