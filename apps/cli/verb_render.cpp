@@ -66,16 +66,14 @@ void set_technique(Scene& scene, const Options& o, const CLI::App& app) {
     }
     if (!o.integrator.empty())
         throw InputError("give either --technique or --integrator: the one chooses the other");
-    SubsurfaceSettings settings;
-    settings.technique = o.technique;
-    if (!o.profile.empty()) settings.profile = o.profile;
+    TechniqueChoice choice{o.technique, o.profile};
     for (const std::string& text : o.set) {
         const std::size_t equals = text.find('=');
         if (equals == 0 || equals == text.npos)
             throw InputError(fmt::format("--set: '{}' is not of the form name=value", text));
-        set_option(settings, text.substr(0, equals), text.substr(equals + 1));
+        choice.options.emplace_back(text.substr(0, equals), text.substr(equals + 1));
     }
-    choose_technique(scene, settings);
+    choose_technique(scene, choice);
 }
 
 Scene load(const Options& o, const CLI::App& app) {

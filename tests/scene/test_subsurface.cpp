@@ -52,14 +52,16 @@ TEST_F(Subsurface, TechniquesTakeMediaBehindSmoothBoundaries) {
         </shape><shape type="sphere"><bsdf type="null"/><medium name="interior" type="homogeneous"/>
         </shape><shape type="sphere"/>)");
     EXPECT_FALSE(s.shapes[0].subsurface);
-    SubsurfaceSettings surface;
-    surface.technique = "surface";
+    const auto surface = [](SubsurfaceSettings& settings) { settings.technique = "surface"; };
     use_technique(s, surface);
     ASSERT_TRUE(s.shapes[0].subsurface && s.shapes[1].subsurface);
     EXPECT_EQ(s.shapes[0].subsurface->technique, "surface");
     EXPECT_EQ(boundary_eta(s.shapes[1]), 1.f);
     EXPECT_FALSE(s.shapes[2].subsurface);
     EXPECT_EQ(s.integrator.type, "path");
+    // What the scene says otherwise stays.
+    use_technique(s, [](SubsurfaceSettings& settings) { settings.spacing = 2.; });
+    EXPECT_EQ(s.shapes[0].subsurface->technique, "surface");
 
     Scene opaque = load_with(R"(<shape type="sphere"/>)");
     try {

@@ -227,10 +227,8 @@ TEST_F(Techniques, OneOptionSwitchesToCompleteSimulation) {
 TEST_F(Techniques, ChooseByName) {
     Scene s = scene(xml::integrator("volpath") + xml::constant_light() +
                     slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients)));
-    SubsurfaceSettings settings;
     for (const TechniqueDescription& t : techniques()) {
-        settings.technique = std::string(t.name);
-        choose_technique(s, settings);
+        choose_technique(s, {std::string(t.name)});
         EXPECT_EQ(s.integrator.type, t.make ? "path" : "volpath");
         EXPECT_NO_THROW(make_technique_integrator(s)) << t.name;
     }

@@ -150,19 +150,23 @@ float boundary_eta(const ShapeBinding& shape) {
     return eta > 0.f ? eta : 1.f;
 }
 
-void use_technique(Scene& scene, const SubsurfaceSettings& settings) {
-    const auto shared = std::make_shared<const SubsurfaceSettings>(settings);
+void use_technique(Scene& scene, const std::function<void(SubsurfaceSettings&)>& change) {
     bool any = false;
     for (ShapeBinding& shape : scene.shapes) {
         if (!is_translucent(shape)) continue;
-        shape.subsurface = shared;
+        auto settings = shape.subsurface ? *shape.subsurface : SubsurfaceSettings{};
+        change(settings);
+        shape.subsurface = std::make_shared<const SubsurfaceSettings>(std::move(settings));
         any = true;
     }
-    if (!any)
+    if (!any) {
+        SubsurfaceSettings asked;
+        change(asked);
         throw InputError(fmt::format(
             "technique '{}' has nothing to do: no shape has a homogeneous medium inside behind a "
             "smooth boundary",
-            settings.technique));
+            asked.technique));
+    }
     scene.integrator.type = "path";
 }
 

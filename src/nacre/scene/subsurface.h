@@ -1,6 +1,7 @@
 #pragma once
 // How light below the surface of a shape is to be approximated: <subsurface> of a scene file, or
 // `nacre render --technique`. docs/subsurface.md tells what the techniques do.
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,8 +48,8 @@ bool is_translucent(const ShapeBinding& shape);
 /// Index inside over outside of a translucent shape; 1 if nothing refracts.
 float boundary_eta(const ShapeBinding& shape);
 
-/// Has all translucent shapes of the scene rendered by a technique; throws InputError if there are
-/// none.
-void use_technique(Scene& scene, const SubsurfaceSettings& settings);
+/// Has all translucent shapes of the scene rendered by the technique that `change` makes of their
+/// settings: those of the scene file, or the defaults. Throws InputError if there are none.
+void use_technique(Scene& scene, const std::function<void(SubsurfaceSettings&)>& change);
 
 }  // namespace nacre

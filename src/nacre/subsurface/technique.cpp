@@ -177,13 +177,18 @@ const TechniqueDescription& find_technique(std::string_view name) {
     return catalogue[i];
 }
 
-void choose_technique(Scene& scene, const SubsurfaceSettings& settings) {
-    if (find_technique(settings.technique).make) {
-        find_profile(settings.profile);
-        use_technique(scene, settings);
-    } else {
+void choose_technique(Scene& scene, const TechniqueChoice& choice) {
+    const TechniqueDescription& technique = find_technique(choice.technique);
+    if (!choice.profile.empty()) find_profile(choice.profile);
+    if (!technique.make) {
         scene.integrator.type = "volpath";
+        return;
     }
+    use_technique(scene, [&](SubsurfaceSettings& settings) {
+        settings.technique = std::string(technique.name);
+        if (!choice.profile.empty()) settings.profile = choice.profile;
+        for (const auto& [name, value] : choice.options) set_option(settings, name, value);
+    });
 }
 
 std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene) {

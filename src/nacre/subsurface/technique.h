@@ -44,10 +44,16 @@ std::span<const TechniqueDescription> techniques();
 /// By name, regardless of case, blanks, dashes and underscores; throws InputError with the nearest.
 const TechniqueDescription& find_technique(std::string_view name);
 
-/// Has the scene rendered by the technique of `settings`: complete simulation by volpath, any other
-/// by path with that technique in all translucent shapes. Throws InputError for unknown techniques
-/// and profiles, and if nothing in the scene is translucent.
-void choose_technique(Scene& scene, const SubsurfaceSettings& settings);
+/// What is asked for beyond the scene's own settings.
+struct TechniqueChoice {
+    std::string technique;
+    std::string profile = {};  ///< empty: as the scene says, or the dipole
+    std::vector<std::pair<std::string, std::string>> options = {};  ///< as of set_option
+};
+/// Has the scene rendered by a technique: complete simulation by volpath, any other by path with
+/// that technique in all translucent shapes. Throws InputError for unknown names and values, and if
+/// nothing in the scene is translucent.
+void choose_technique(Scene& scene, const TechniqueChoice& choice);
 
 /// The integrator that the scene names, with the techniques that its shapes name if it is `path`.
 /// Precomputation happens here. `scene` outlives it. Throws InputError, with the place in the file
