@@ -111,11 +111,13 @@ void refuse_flat(const Scene& scene, std::uint32_t shape) {
             scene.shapes[shape].subsurface->prefix(), scene.shapes[shape].name));
 }
 
+const TechniqueDescription& technique_of(const SubsurfaceSettings& settings) {
+    return *at_place(settings, [&] { return &find_technique(settings.technique); });
+}
+
 /// Whether the shape asks for complete simulation.
 bool wants_simulation(const ShapeBinding& shape) {
-    return shape.subsurface && !at_place(*shape.subsurface, [&]() -> const TechniqueDescription& {
-                                    return find_technique(shape.subsurface->technique);
-                                }).make;
+    return shape.subsurface && !technique_of(*shape.subsurface).make;
 }
 
 class TechniqueIntegrator final : public Integrator {
@@ -130,10 +132,7 @@ class TechniqueIntegrator final : public Integrator {
         Translucencies below(scene.shapes.size());
         for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
             if (const auto& settings = scene.shapes[i].subsurface) {
-                const TechniqueDescription& technique =
-                    at_place(*settings, [&]() -> const TechniqueDescription& {
-                        return find_technique(settings->technique);
-                    });
+                const TechniqueDescription& technique = technique_of(*settings);
                 if (!technique.make)
                     throw InputError(
                         fmt::format("{}'{}' simulates the whole scene: give all translucent shapes "
