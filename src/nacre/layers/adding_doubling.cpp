@@ -10,7 +10,7 @@
 // g++ 12 takes the deliberately undefined registers of its own AVX-512 headers for mistakes.
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <eigen3/Eigen/Dense>
+#include <Eigen/Dense>
 #pragma GCC diagnostic pop
 
 #include "nacre/layers/angular_grid.h"
