@@ -1,0 +1,351 @@
+#include "nacre/compare/flip.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "nacre/compare/flip_color.h"
+#include "nacre/compare/flip_filters.h"
+#include "tests/compare/pictures_fixture.h"
+
+namespace nacre {
+namespace {
+
+using namespace flip_steps;
+using test::constant;
+using test::message_of;
+using test::waves;
+using test::with_noise;
+
+double sum(const std::vector<float>& taps) { return std::accumulate(taps.begin(), taps.end(), 0.); }
+
+void expect_near(Vec3f a, Vec3f b, float tolerance) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << c;
+}
+
+/// LDR-FLIP of two even pictures by the formulas: no filter changes them and they have no features.
+double error_of_even(Vec3f a, Vec3f b) {
+    return double(redistribute(std::pow(hyab(hunt_lab(a), hunt_lab(b)), 0.7f)));
+}
+
+Image tone_mapped(Image image, double exposure) {
+    for (float& v : image.data) v = flip_tone_map(v, exposure);
+    return image;
+}
+
+/// A red square with a white dot, its corner at (x, y), on grey.
+Image square_at(int x0, int y0) {
+    Image r = constant(96, 80, {0.3f, 0.3f, 0.3f});
+    for (int y = y0; y < y0 + 6; ++y)
+        for (int x = x0; x < x0 + 9; ++x)
+            for (int c = 0; c < 3; ++c) r.at(x, y, c) = c == 0 ? 0.8f : 0.1f;
+    for (int c = 0; c < 3; ++c) r.at(x0 + 4, y0 + 2, c) = 1.f;
+    return r;
+}
+
+}  // namespace
+
+TEST(FlipColor, WhiteAndPrimariesAreWhereTheyAre) {
+    expect_near(to_ycxcz({1.f, 1.f, 1.f}), {100.f, 0.f, 0.f}, 1e-4f);
+    expect_near(hunt_lab({1.f, 1.f, 1.f}), {100.f, 0.f, 0.f}, 1e-4f);
+    expect_near(hunt_lab({0.f, 0.f, 0.f}), {0.f, 0.f, 0.f}, 1e-4f);
+    expect_near(to_ycxcz({0.f, 0.f, 0.f}), {-16.f, 0.f, 0.f}, 1e-4f);
+    // CIELab of sRGB green and blue, (87.7347, -86.1827, 83.1793) and (32.2970, 79.1875,
+    // -107.8602) in any table of colours, chroma times 0.01 L*.
+    expect_near(hunt_lab({0.f, 1.f, 0.f}), {87.7347f, -75.6122f, 72.9771f}, 0.02f);
+    expect_near(hunt_lab({0.f, 0.f, 1.f}), {32.2970f, 25.5752f, -34.8356f}, 0.02f);
+}
+
+TEST(FlipColor, TheOpponentSpaceIsUndone) {
+    for (const Vec3f rgb : {Vec3f(0.2f, 0.5f, 0.9f), Vec3f(1.f, 0.f, 0.f), Vec3f(0.f, 0.f, 0.f)})
+        expect_near(from_ycxcz(to_ycxcz(rgb)), rgb, 1e-6f);
+    // Luminance of BT.709: Y = 0.2126 R + 0.7152 G + 0.0722 B.
+    EXPECT_NEAR(to_ycxcz({1.f, 0.f, 0.f}).x, 116.f * 0.2126f - 16.f, 0.01f);
+    EXPECT_NEAR(to_ycxcz({0.f, 0.f, 1.f}).x, 116.f * 0.0722f - 16.f, 0.01f);
+}
+
+TEST(FlipColor, DistancesBecomeErrors) {
+    EXPECT_FLOAT_EQ(hyab({50.f, 3.f, 0.f}, {40.f, 0.f, 4.f}), 15.f);
+    // |87.7347 - 32.2970| + sqrt((75.6122 + 25.5752)^2 + (72.9771 + 34.8356)^2) = 203.297; ^0.7
+    EXPECT_NEAR(largest_distance_power(), 41.276f, 0.003f);
+    const float c_max = largest_distance_power();
+    EXPECT_EQ(redistribute(0.f), 0.f);
+    EXPECT_NEAR(redistribute(0.2f * c_max), 0.475f, 1e-6f);
+    EXPECT_NEAR(redistribute(0.4f * c_max), 0.95f, 1e-6f);
+    EXPECT_NEAR(redistribute(0.7f * c_max), 0.975f, 1e-6f);
+    EXPECT_NEAR(redistribute(c_max), 1.f, 1e-6f);
+}
+
+TEST(FlipFilters, FilteringIsAConvolutionThatContinuesTheBorder) {
+    const std::vector<float> across = {0.125f, 0.5f, 0.25f}, down = {0.f, 1.f, 0.5f};
+    Plane impulse{7, 5, std::vector<float>(35)};
+    impulse.data[2 * 7 + 3] = 1.f;
+    const Plane r = filter(impulse, across, down);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 7; ++x) {
+            const bool inside = std::abs(x - 3) < 2 && std::abs(y - 2) < 2;
+            EXPECT_EQ(r.data[std::size_t(y * 7 + x)],
+                      inside ? across[std::size_t(x - 2)] * down[std::size_t(y - 1)] : 0.f);
+        }
+    const Plane two{2, 1, {1.f, 0.f}};
+    const std::vector<float> one = {1.f};
+    // sum over k of across[k] v(x - k): the right tap falls on the continued left border.
+    EXPECT_EQ(filter(two, across, one).data, (std::vector<float>{0.75f, 0.25f}));
+}
+
+TEST(FlipFilters, ContrastSensitivityFollowsItsGaussians) {
+    const auto a = contrast_sensitivity(Opponent::achromatic, flip_pixels_per_degree);
+    const auto rg = contrast_sensitivity(Opponent::red_green, flip_pixels_per_degree);
+    const auto by = contrast_sensitivity(Opponent::blue_yellow, flip_pixels_per_degree);
+    ASSERT_EQ(a.size(), 1u);
+    ASSERT_EQ(rg.size(), 1u);
+    ASSERT_EQ(by.size(), 2u);
+    // 3 sqrt(0.04 / (2 pi^2)) 67.02 = 9.05, rounded up: 10 pixels to each side.
+    for (const SpatialFilter& f : {a[0], rg[0], by[0], by[1]}) {
+        EXPECT_EQ(f.taps.size(), 21u);
+        EXPECT_NEAR(sum(f.taps), 1., 1e-6);
+    }
+    // One pixel from the centre: exp(-pi^2 / (b 67.02^2)), 67.02^2 = 4491.76.
+    EXPECT_NEAR(a[0].taps[11] / a[0].taps[10], std::exp(-9.8696044 / (0.0047 * 4491.76)), 1e-5);
+    EXPECT_NEAR(rg[0].taps[9] / rg[0].taps[10], std::exp(-9.8696044 / (0.0053 * 4491.76)), 1e-5);
+    EXPECT_NEAR(by[0].taps[11] / by[0].taps[10], std::exp(-9.8696044 / (0.04 * 4491.76)), 1e-5);
+    EXPECT_NEAR(by[1].taps[11] / by[1].taps[10], std::exp(-9.8696044 / (0.025 * 4491.76)), 1e-5);
+    // The integral of a sqrt(pi / b) exp(-pi^2 r^2 / b) is proportional to a sqrt(b): 34.1 * 0.2
+    // to 13.5 * 0.158114. The filters end at 3.3 sigma and lose less than 0.3 %.
+    EXPECT_EQ(a[0].weight, 1.f);
+    EXPECT_NEAR(by[0].weight, 6.82 / (6.82 + 2.13454), 1e-3);
+    EXPECT_NEAR(by[0].weight + by[1].weight, 1., 1e-6);
+}
+
+TEST(FlipFilters, FeaturesOfAStepAndOfNothing) {
+    const FeatureTaps t = feature_taps(flip_pixels_per_degree);
+    EXPECT_EQ(t.smooth.size(), 19u);  // 3 * 0.041 * 67.02 = 8.24, rounded up: 9
+    EXPECT_NEAR(sum(t.smooth), 1., 1e-6);
+    for (const std::vector<float>* taps : {&t.edge, &t.point}) {
+        double positive = 0., negative = 0.;
+        for (const float v : *taps) (v > 0.f ? positive : negative) += double(v);
+        EXPECT_NEAR(positive, 1., 1e-6);
+        EXPECT_NEAR(negative, -1., 1e-6);
+    }
+    // sigma^2 = (0.041 * 67.0206)^2 = 7.55068: smooth and point by hand.
+    EXPECT_NEAR(t.smooth[10] / t.smooth[9], std::exp(-0.5 / 7.55068), 1e-5);
+    EXPECT_NEAR(t.point[10] / t.point[9], (1. - 1. / 7.55068) * std::exp(-0.5 / 7.55068), 1e-5);
+    EXPECT_NEAR(t.edge[11] / t.edge[10], 2. * std::exp(-1.5 / 7.55068), 1e-5);
+    // The pixels beside a step from 0 to 1 have all positive or all negative taps on 1.
+    Plane step{40, 3, std::vector<float>(120)};
+    for (int i = 0; i < 120; ++i) step.data[std::size_t(i)] = i % 40 < 20 ? 0.f : 1.f;
+    const Plane edge = filter(step, t.edge, t.smooth);
+    EXPECT_NEAR(std::abs(edge.data[40 + 19]), 1.f, 1e-5f);
+    EXPECT_NEAR(std::abs(edge.data[40 + 20]), 1.f, 1e-5f);
+    EXPECT_NEAR(edge.data[40 + 5], 0.f, 1e-6f);
+    EXPECT_NEAR(filter(step, t.smooth, t.edge).data[40 + 20], 0.f, 1e-6f);
+}
+
+TEST(Flip, EqualPicturesAreNotDifferent) {
+    const Image a = waves(60, 50);
+    const FlipResult r = flip(a, a);
+    EXPECT_EQ(r.mean, 0.);
+    EXPECT_EQ(r.map.channels, std::vector<std::string>{"Y"});
+    EXPECT_EQ(*std::max_element(r.map.data.begin(), r.map.data.end()), 0.f);
+    EXPECT_EQ(flip_hdr(a, a).mean, 0.);
+    Image b = a;
+    b.at(30, 25, 1) += 0.01f;
+    EXPECT_GT(flip(a, b).mean, 0.);
+    EXPECT_GT(flip_hdr(a, b).mean, 0.);
+}
+
+TEST(Flip, EvenPicturesDifferByTheirColours) {
+    // Black and white: L* differs by 100; 100^0.7 = 25.1189, c_max = 41.276, and 0.95 + 0.05
+    // (25.1189 - 0.4 c_max) / (0.6 c_max) = 0.96738.
+    const Image black = constant(30, 20, {}), white = constant(30, 20, {1.f, 1.f, 1.f});
+    EXPECT_NEAR(flip(white, black).mean, 0.96738, 2e-5);
+    const Vec3f green{0.f, 1.f, 0.f}, blue{0.f, 0.f, 1.f}, dull{0.2f, 0.3f, 0.25f};
+    EXPECT_NEAR(flip(constant(30, 20, green), constant(30, 20, blue)).mean, 1., 1e-4);
+    EXPECT_NEAR(flip(constant(30, 20, dull), constant(30, 20, blue)).mean,
+                error_of_even(dull, blue), 1e-4);
+    // What is brighter than the screen's white is white.
+    EXPECT_NEAR(flip(constant(30, 20, {7.f, 7.f, 7.f}), white).mean, 0., 1e-6);
+}
+
+TEST(Flip, IsSymmetricAndWithinBounds) {
+    const Image a = with_noise(waves(70, 60), 0.3, 1), b = with_noise(waves(70, 60), 0.3, 2);
+    const FlipResult ab = flip(a, b), ba = flip(b, a);
+    EXPECT_EQ(ab.map.data, ba.map.data);
+    EXPECT_EQ(ab.mean, ba.mean);
+    for (const float v : ab.map.data) {
+        EXPECT_GT(v, 0.f);
+        EXPECT_LE(v, 1.f);
+    }
+}
+
+TEST(Flip, MovesWithThePictures) {
+    const Image grey = constant(96, 80, {0.3f, 0.3f, 0.3f});
+    const FlipResult r = flip(square_at(40, 36), grey), moved = flip(square_at(47, 31), grey);
+    EXPECT_NEAR(r.mean, moved.mean, 1e-9);
+    int seen = 0;
+    for (int y = 10; y < 70; ++y)
+        for (int x = 10; x < 80; ++x) {
+            EXPECT_EQ(r.map.at(x, y, 0), moved.map.at(x + 7, y - 5, 0));
+            seen += r.map.at(x, y, 0) > 0.1f;
+        }
+    EXPECT_GT(seen, 54);  // more than the square: the eye blurs it
+}
+
+TEST(Flip, TurnsWithThePictures) {
+    // Both detectors look along both axes: transposed pictures have a transposed error.
+    const Image a = with_noise(waves(40, 56), 0.2, 5), b = waves(40, 56);
+    const auto transposed = [](const Image& image) {
+        Image r(image.height, image.width, image.channels);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < image.channel_count(); ++c) r.at(y, x, c) = image.at(x, y, c);
+        return r;
+    };
+    const Image map = transposed(flip(transposed(a), transposed(b)).map), direct = flip(a, b).map;
+    for (std::size_t i = 0; i < map.data.size(); ++i)
+        EXPECT_NEAR(map.data[i], direct.data[i], 2e-3f);  // small errors have a steep power
+}
+
+TEST(Flip, GrowsWithTheDifference) {
+    const Image grey = constant(48, 48, {0.3f, 0.3f, 0.3f});
+    double even = 0., dot = 0.;
+    for (const float d : {0.02f, 0.05f, 0.1f, 0.2f, 0.4f, 0.7f}) {
+        const double e = flip(constant(48, 48, {0.3f + d, 0.3f + d, 0.3f + d}), grey).mean;
+        Image dotted = grey;
+        for (int c = 0; c < 3; ++c) dotted.at(24, 24, c) += d;
+        const double f = flip(dotted, grey).mean;
+        EXPECT_GT(e, even) << d;
+        EXPECT_GT(f, dot) << d;
+        even = e, dot = f;
+    }
+    EXPECT_LT(dot, 0.1 * even);
+}
+
+TEST(Flip, FeaturesAddToTheColourError) {
+    // A vertical edge in one picture only, 2 sigma of the detector from pixels of equal colour:
+    // beside the edge the error exceeds that of the colours, C^(1 - F) with F from the taps.
+    Image step = constant(120, 5, {});
+    for (int y = 0; y < 5; ++y)
+        for (int x = 60; x < 120; ++x)
+            for (int c = 0; c < 3; ++c) step.at(x, y, c) = 1.f;
+    const FlipResult r = flip(step, constant(120, 5, {}));
+    // White against black, far from the edge.
+    EXPECT_NEAR(r.map.at(100, 2, 0), 0.96738f, 2e-5f);
+    // Beside the edge |edge| = 1 and F = 1 / 2^(1/4); C is the error of the blurred step: the
+    // achromatic channel there is 1/2 + taps[10] / 2 of white on the white side.
+    const auto a = contrast_sensitivity(Opponent::achromatic, flip_pixels_per_degree);
+    const float y = 0.5f + 0.5f * a[0].taps[10];
+    const double color = error_of_even({y, y, y}, {});
+    EXPECT_NEAR(r.map.at(60, 2, 0), std::pow(color, 1. - std::pow(2., -0.25)), 1e-4);
+}
+
+TEST(Flip, FarAwayFinePatternsVanish) {
+    // A checkerboard of single pixels against its mean, at its centre, which the border's stripes
+    // do not reach: at 150 pixels a degree the eye's filter passes exp(-pi^2 sigma^2 / 2) of a
+    // frequency of 1/2 on each axis, sigma = 150 sqrt(0.0047 / 2) / pi = 2.3, which is nothing.
+    Image board = constant(64, 64, {});
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c) board.at(x, y, c) = (x + y) % 2 ? 1.f : 0.f;
+    const Image mean = constant(64, 64, {0.5f, 0.5f, 0.5f});
+    EXPECT_GT(flip(board, mean, {}, 20.).map.at(32, 32, 0), 0.1f);
+    EXPECT_LT(flip(board, mean, {}, 150.).map.at(32, 32, 0), 1e-3f);
+}
+
+TEST(FlipHdr, TheToneMapperByHand) {
+    // x = 0.6: 0.6 (2.51 * 0.6 + 0.03) / (0.6 (2.43 * 0.6 + 0.59) + 0.14) = 0.9216 / 1.3688.
+    EXPECT_NEAR(flip_tone_map(1.f, 0.), 0.673291f, 1e-6f);
+    EXPECT_NEAR(flip_tone_map(0.25f, 2.), 0.673291f, 1e-6f);
+    EXPECT_EQ(flip_tone_map(0.f, 5.), 0.f);
+    EXPECT_EQ(flip_tone_map(-1.f, 0.), 0.f);
+    EXPECT_EQ(flip_tone_map(1e30f, 100.), 1.f);
+}
+
+TEST(FlipHdr, ExposuresPutMaximumAndMedianBelowWhite) {
+    Image t = constant(5, 1, {0.1f, 0.1f, 0.1f});
+    for (int c = 0; c < 3; ++c) t.at(3, 0, c) = 50.f, t.at(4, 0, c) = 2.f;
+    const FlipExposures e = flip_exposures(t);
+    EXPECT_NEAR(flip_tone_map(50.f, e.start), 0.85f, 1e-6f);
+    EXPECT_NEAR(flip_tone_map(0.1f, e.stop), 0.85f, 1e-6f);
+    EXPECT_NEAR(e.stop - e.start, std::log2(500.), 1e-6);
+    EXPECT_EQ(e.count, 9);  // 8.97, rounded up
+    EXPECT_EQ(e[0], e.start);
+    EXPECT_NEAR(e[8], e.stop, 1e-12);
+    for (int x = 0; x < 3; ++x)
+        for (int c = 0; c < 3; ++c) t.at(x, 0, c) = 0.f;
+    EXPECT_NEAR(flip_exposures(t).stop - flip_exposures(t).start, std::log2(50. / 26.), 1e-6);
+    EXPECT_EQ(flip_exposures(t).count, 2);
+    EXPECT_EQ(flip_exposures(constant(2, 2, {})).count, 1);
+    EXPECT_EQ(flip_exposures(constant(2, 2, {})).start, 0.);
+    EXPECT_EQ(flip_exposures(constant(2, 2, {3.f, 3.f, 3.f})).count, 1);
+}
+
+TEST(FlipHdr, IsTheLargestOfItsExposures) {
+    Image t = waves(48, 40);
+    for (std::size_t i = 0; i < t.data.size(); i += 97) t.data[i] *= 40.f;
+    const Image p = with_noise(t, 0.1, 7);
+    const HdrFlipResult r = flip_hdr(p, t);
+    ASSERT_GE(r.exposures.count, 4);
+    Image largest(48, 40, {"Y"});
+    for (int i = 0; i < r.exposures.count; ++i) {
+        const double e = r.exposures[i];
+        const FlipResult ldr = flip(tone_mapped(p, e), tone_mapped(t, e));
+        EXPECT_LE(ldr.mean, r.mean);
+        for (std::size_t k = 0; k < largest.data.size(); ++k) {
+            largest.data[k] = std::max(largest.data[k], ldr.map.data[k]);
+            if (r.exposure.data[k] == float(e)) {
+                EXPECT_EQ(ldr.map.data[k], r.map.data[k]);
+            }
+        }
+    }
+    EXPECT_EQ(largest.data, r.map.data);
+    const HdrFlipResult one = flip_hdr(p, t, {}, flip_pixels_per_degree, FlipExposures{1., 9., 1});
+    EXPECT_EQ(one.map.data, flip(tone_mapped(p, 1.), tone_mapped(t, 1.)).map.data);
+}
+
+TEST(FlipHdr, DoesNotDependOnTheUnitOfLight) {
+    Image t = waves(40, 40);
+    t.at(20, 20, 1) = 30.f;
+    Image p = with_noise(t, 0.05, 8);
+    const double mean = flip_hdr(p, t).mean;
+    for (Image* image : {&p, &t})
+        for (float& v : image->data) v *= 64.f;
+    EXPECT_NEAR(flip_hdr(p, t).mean, mean, 1e-6);
+}
+
+TEST(Flip, TheMeanIsOverTheMask) {
+    Image a = constant(64, 16, {0.3f, 0.3f, 0.3f});
+    const Image b = a;
+    for (int c = 0; c < 3; ++c) a.at(8, 8, c) = 1.f;
+    const FlipResult near = flip(a, b, Mask(64, 16, [](int x, int) { return x < 32; }));
+    const FlipResult far = flip(a, b, Mask(64, 16, [](int x, int) { return x >= 32; }));
+    EXPECT_NEAR(near.mean, 2. * flip(a, b).mean, 1e-9);
+    EXPECT_NEAR(far.mean, 0., 1e-9);
+}
+
+TEST(Flip, WrongInputIsNamed) {
+    const Image a(3, 2), b(2, 2);
+    Image bad = a;
+    bad.at(2, 1, 0) = std::nanf("");
+    const std::pair<std::function<void()>, const char*> cases[] = {
+        {[&] { flip(a, b); },
+         "the picture has 3 x 2 pixels, but the reference has 2 x 2; compare pictures of one size"},
+        {[&] { flip_hdr(a, b); },
+         "the picture has 3 x 2 pixels, but the reference has 2 x 2; compare pictures of one size"},
+        {[&] { flip(a, a, Mask(b)); },
+         "the mask has 2 x 2 pixels, but the pictures have 3 x 2; make it of their size"},
+        {[&] { flip(a, a, Mask(a)); },
+         "the mask leaves no pixel; its green must be above 0.5 where a pixel counts"},
+        {[&] { flip(bad, a); },
+         "the picture is not finite at pixel (2, 1): (nan, 0, 0); mend it or mask it out"},
+        {[&] { flip(a, a, {}, 0.); },
+         "pixels per degree: 0 is out of range; it must be from 1 to 10000"},
+        {[&] {
+             flip_hdr(a, a, {}, 67., FlipExposures{0., 1., 0});
+         },
+         "exposures: 0 are too few; there must be at least 1"},
+    };
+    for (const auto& [act, message] : cases) EXPECT_EQ(message_of(act), message);
+}
+
+}  // namespace nacre
