@@ -24,6 +24,7 @@ constexpr Verb verbs[] = {
     {"slab", "reflectance and transmittance of a stack of layers, by every method", set_up_slab},
     {"check", "check models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
+    {"diff", "compare two pictures", set_up_diff},
     {"image", "convert an image between EXR, PFM, HDR and PNG", set_up_image},
     {"gallery", "render the figures of the classic papers", set_up_gallery},
 };

@@ -317,8 +317,8 @@ TEST(Flip, TheMeanIsOverTheMask) {
     Image a = constant(64, 16, {0.3f, 0.3f, 0.3f});
     const Image b = a;
     for (int c = 0; c < 3; ++c) a.at(8, 8, c) = 1.f;
-    const FlipResult near = flip(a, b, Mask(64, 16, [](int x, int) { return x < 32; }));
-    const FlipResult far = flip(a, b, Mask(64, 16, [](int x, int) { return x >= 32; }));
+    const FlipResult near = flip(a, b, PixelMask(64, 16, [](int x, int) { return x < 32; }));
+    const FlipResult far = flip(a, b, PixelMask(64, 16, [](int x, int) { return x >= 32; }));
     EXPECT_NEAR(near.mean, 2. * flip(a, b).mean, 1e-9);
     EXPECT_NEAR(far.mean, 0., 1e-9);
 }
@@ -332,12 +332,13 @@ TEST(Flip, WrongInputIsNamed) {
          "the picture has 3 x 2 pixels, but the reference has 2 x 2; compare pictures of one size"},
         {[&] { flip_hdr(a, b); },
          "the picture has 3 x 2 pixels, but the reference has 2 x 2; compare pictures of one size"},
-        {[&] { flip(a, a, Mask(b)); },
+        {[&] { flip(a, a, PixelMask(b)); },
          "the mask has 2 x 2 pixels, but the pictures have 3 x 2; make it of their size"},
-        {[&] { flip(a, a, Mask(a)); },
+        {[&] { flip(a, a, PixelMask(a)); },
          "the mask leaves no pixel; its green must be above 0.5 where a pixel counts"},
         {[&] { flip(bad, a); },
-         "the picture is not finite at pixel (2, 1): (nan, 0, 0); mend it or mask it out"},
+         "the picture is not finite at pixel (2, 1): (nan, 0, 0); mend it: FLIP sees every pixel, "
+         "masked or not"},
         {[&] { flip(a, a, {}, 0.); },
          "pixels per degree: 0 is out of range; it must be from 1 to 10000"},
         {[&] {

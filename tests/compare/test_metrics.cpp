@@ -160,7 +160,7 @@ TEST(Metrics, BlocksAverageNoiseAndKeepBias) {
     EXPECT_NEAR(m.bias.value, 0., 1e-15);
     EXPECT_EQ(m.block.blocks, 4 * 2 * 3);
     EXPECT_NEAR(m.block.rms(), 0.25, 1e-12);
-    const Mask mask(64, 32, [](int x, int) { return x > 0; });
+    const PixelMask mask(64, 32, [](int x, int) { return x > 0; });
     EXPECT_EQ(compare(p, t, mask).block.blocks, 3 * 2 * 3);
     EXPECT_EQ(compare(p, t, mask).pixels, 63u * 32u);
     EXPECT_EQ(compare(p, t, mask, {.block = 33}).block.blocks, 0);
@@ -172,7 +172,7 @@ TEST(Metrics, WhatTheMaskHidesDoesNotCount) {
     Image p = t, mask = constant(16, 16, {0.f, 1.f, 0.f});
     p.at(3, 4, 0) = std::nanf("");
     mask.at(3, 4, 1) = 0.5f;
-    const Metrics m = compare(p, t, Mask(mask));
+    const Metrics m = compare(p, t, PixelMask(mask));
     EXPECT_EQ(m.pixels, 255u);
     EXPECT_EQ(m.mse.value, 0.);
 }
@@ -224,11 +224,11 @@ TEST(Metrics, WrongInputIsNamed) {
          },
          "the variance of the picture has 4 x 2 pixels, but the reference has 3 x 2; compare "
          "pictures of one size"},
-        {[&] { compare(a, a, Mask(b)); },
+        {[&] { compare(a, a, PixelMask(b)); },
          "the mask has 4 x 2 pixels, but the pictures have 3 x 2; make it of their size"},
-        {[&] { compare(a, a, Mask(a)); },
+        {[&] { compare(a, a, PixelMask(a)); },
          "the mask leaves no pixel; its green must be above 0.5 where a pixel counts"},
-        {[&] { Mask(0, 2, [](int, int) { return true; }); },
+        {[&] { PixelMask(0, 2, [](int, int) { return true; }); },
          "a mask of 0 x 2 pixels cannot be made; both sides must be positive"},
         {[&] { compare(bad, a); },
          "the picture is not finite at pixel (1, 1): (0, 0, inf); mend it or mask it out"},

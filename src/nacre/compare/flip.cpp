@@ -97,7 +97,7 @@ Image error_map(const Image& a, const Image& b, const Eye& eye, F&& show) {
     return r;
 }
 
-double mean_over(const Mask& mask, const Image& map) {
+double mean_over(const PixelMask& mask, const Image& map) {
     double sum = 0.;
     for (int y = 0; y < map.height; ++y)
         for (int x = 0; x < map.width; ++x)
@@ -105,14 +105,16 @@ double mean_over(const Mask& mask, const Image& map) {
     return sum / static_cast<double>(mask.count(map.width, map.height));
 }
 
-void check(const Image& picture, const Image& reference, const Mask& mask, double ppd) {
+void check(const Image& picture, const Image& reference, const PixelMask& mask, double ppd) {
     if (!(ppd >= 1. && ppd <= 10000.))
         throw InputError(
             fmt::format("pixels per degree: {} is out of range; it must be from 1 to 10000", ppd));
     check_same_size("the picture", picture, reference);
     mask.count(picture.width, picture.height);
-    check_finite("the picture", picture, {});
-    check_finite("the reference", reference, {});
+    // Filters carry a value to its neighbours, whatever the mask.
+    constexpr const char* remedy = "mend it: FLIP sees every pixel, masked or not";
+    check_finite("the picture", picture, {}, remedy);
+    check_finite("the reference", reference, {}, remedy);
 }
 
 // Coefficients of the tone mapper, exposure undone: (k0 x^2 + k1 x) / (k2 x^2 + k3 x + k4).
@@ -128,7 +130,7 @@ double inverse_tone_map(double t) {
 
 }  // namespace
 
-FlipResult flip(const Image& picture, const Image& reference, const Mask& mask,
+FlipResult flip(const Image& picture, const Image& reference, const PixelMask& mask,
                 double pixels_per_degree) {
     check(picture, reference, mask, pixels_per_degree);
     FlipResult r;
@@ -167,7 +169,7 @@ float flip_tone_map(float value, double exposure) {
     return float(std::clamp((k0 * x + k1) * x / ((k2 * x + k3) * x + k4), 0., 1.));
 }
 
-HdrFlipResult flip_hdr(const Image& picture, const Image& reference, const Mask& mask,
+HdrFlipResult flip_hdr(const Image& picture, const Image& reference, const PixelMask& mask,
                        double pixels_per_degree, std::optional<FlipExposures> exposures) {
     check(picture, reference, mask, pixels_per_degree);
     HdrFlipResult r;

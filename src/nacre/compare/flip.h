@@ -30,7 +30,7 @@ struct FlipResult {
 /// InputError if the pictures or the mask differ in size, if the mask leaves no pixel, if any value
 /// is not finite (its neighbours' errors would not be either), or if pixels_per_degree is not from
 /// 1 to 10000.
-FlipResult flip(const Image& picture, const Image& reference, const Mask& mask = {},
+FlipResult flip(const Image& picture, const Image& reference, const PixelMask& mask = {},
                 double pixels_per_degree = flip_pixels_per_degree);
 
 /// The exposures of HDR-FLIP, in stops.
@@ -60,7 +60,7 @@ struct HdrFlipResult : FlipResult {
 
 /// HDR-FLIP: the maximum over exposures of LDR-FLIP of the tone-mapped pictures. The exposures are
 /// those of the reference unless given. Throws as `flip`, and if their count is below 1.
-HdrFlipResult flip_hdr(const Image& picture, const Image& reference, const Mask& mask = {},
+HdrFlipResult flip_hdr(const Image& picture, const Image& reference, const PixelMask& mask = {},
                        double pixels_per_degree = flip_pixels_per_degree,
                        std::optional<FlipExposures> exposures = {});
 

@@ -26,7 +26,7 @@ float hyab(Vec3f lab_a, Vec3f lab_b);
 /// Exponent q_c of the distance.
 inline constexpr float color_exponent = 0.7f;
 
-/// c_max, the largest power of a distance: that of green and blue, 41.2760.
+/// c_max, the largest power of a distance: that of green and blue, 41.276.
 float largest_distance_power();
 
 /// A power of a distance as an error in [0, 1]: linear from 0 to p_t = 0.95 for powers up to

@@ -24,7 +24,7 @@ void check(const MetricOptions& o) {
 }
 
 void check_variance(const char* what, const Image* variance, const Image& reference,
-                    const Mask& mask) {
+                    const PixelMask& mask) {
     if (!variance) return;
     check_same_size(what, *variance, reference);
     check_finite(what, *variance, mask);
@@ -86,7 +86,7 @@ Vec3d variance_at(const UncertainPicture& a, const UncertainPicture& b, int x, i
 }
 
 BlockError block_error(const UncertainPicture& picture, const UncertainPicture& reference,
-                       const Mask& mask, int side, bool noise_known) {
+                       const PixelMask& mask, int side, bool noise_known) {
     const Image& p = picture.mean;
     BlockError r;
     Sums sums;
@@ -176,7 +176,7 @@ std::optional<Image> variance_of_mean(const Image& picture) {
 double BlockError::rms() const { return std::sqrt(mean_square.value); }
 
 Metrics compare(const UncertainPicture& picture, const UncertainPicture& reference,
-                const Mask& mask, const MetricOptions& options) {
+                const PixelMask& mask, const MetricOptions& options) {
     const Image &p = picture.mean, &t = reference.mean;
     check(options);
     check_same_size("the picture", p, t);

@@ -104,7 +104,7 @@ struct Metrics {
 /// Throws InputError if the pictures, variances or the mask differ in size, if the mask leaves no
 /// pixel, if a value that counts is not finite or a variance negative, or for wrong options.
 Metrics compare(const UncertainPicture& picture, const UncertainPicture& reference,
-                const Mask& mask = {}, const MetricOptions& options = {});
+                const PixelMask& mask = {}, const MetricOptions& options = {});
 
 /// (p - t) / (|t| + epsilon), channels R, G, B: where the picture is too bright and where too dark.
 Image signed_relative_error(const Image& picture, const Image& reference, double epsilon = 0.01);

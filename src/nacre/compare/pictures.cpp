@@ -7,10 +7,11 @@
 
 namespace nacre {
 
-Mask::Mask(const Image& image)
-    : Mask(image.width, image.height, [&](int x, int y) { return image.rgb(x, y).y > 0.5f; }) {}
+PixelMask::PixelMask(const Image& image)
+    : PixelMask(image.width, image.height, [&](int x, int y) { return image.rgb(x, y).y > 0.5f; }) {
+}
 
-Mask::Mask(int width, int height, const std::function<bool(int x, int y)>& counts)
+PixelMask::PixelMask(int width, int height, const std::function<bool(int x, int y)>& counts)
     : width_(width), height_(height) {
     if (width < 1 || height < 1)
         throw InputError(fmt::format(
@@ -20,7 +21,7 @@ Mask::Mask(int width, int height, const std::function<bool(int x, int y)>& count
         for (int x = 0; x < width; ++x) counts_.push_back(counts(x, y));
 }
 
-std::size_t Mask::count(int width, int height) const {
+std::size_t PixelMask::count(int width, int height) const {
     if (counts_.empty()) return std::size_t(width) * height;
     if (width_ != width || height_ != height)
         throw InputError(
@@ -43,15 +44,14 @@ void check_same_size(const char* what, const Image& image, const Image& referenc
     if (image.data.empty()) throw InputError(fmt::format("{} has no pixels", what));
 }
 
-void check_finite(const char* what, const Image& image, const Mask& mask) {
+void check_finite(const char* what, const Image& image, const PixelMask& mask, const char* remedy) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             if (!mask(x, y)) continue;
             const Vec3f v = image.rgb(x, y);
             if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-                throw InputError(fmt::format(
-                    "{} is not finite at pixel ({}, {}): ({}, {}, {}); mend it or mask it out",
-                    what, x, y, v.x, v.y, v.z));
+                throw InputError(fmt::format("{} is not finite at pixel ({}, {}): ({}, {}, {}); {}",
+                                             what, x, y, v.x, v.y, v.z, remedy));
         }
 }
 

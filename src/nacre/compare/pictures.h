@@ -9,14 +9,14 @@
 namespace nacre {
 
 /// The pixels that count.
-class Mask {
+class PixelMask {
   public:
     /// All pixels of pictures of any size.
-    Mask() = default;
+    PixelMask() = default;
     /// Pixels whose green, or grey, is above 0.5.
-    explicit Mask(const Image& image);
+    explicit PixelMask(const Image& image);
     /// Pixels for which `counts(x, y)` is true.
-    Mask(int width, int height, const std::function<bool(int x, int y)>& counts);
+    PixelMask(int width, int height, const std::function<bool(int x, int y)>& counts);
 
     bool operator()(int x, int y) const {
         return counts_.empty() || counts_[std::size_t(y) * width_ + x];
@@ -33,7 +33,9 @@ class Mask {
 /// Throws InputError if `image` and the reference differ in size; `what` names the image.
 void check_same_size(const char* what, const Image& image, const Image& reference);
 
-/// Throws InputError at the first value of `image` that counts and is not finite.
-void check_finite(const char* what, const Image& image, const Mask& mask);
+/// Throws InputError at the first value of `image` that counts and is not finite; `remedy` ends the
+/// message.
+void check_finite(const char* what, const Image& image, const PixelMask& mask,
+                  const char* remedy = "mend it or mask it out");
 
 }  // namespace nacre
