@@ -239,6 +239,34 @@ TEST(Flip, FeaturesAddToTheColourError) {
     EXPECT_NEAR(r.map.at(60, 2, 0), std::pow(color, 1. - std::pow(2., -0.25)), 1e-4);
 }
 
+TEST(Flip, FilteredColoursStayOnTheScreen) {
+    // The dark side of an edge from black to blue: chroma is blurred more than luminance, which
+    // gives a colour that no screen shows, and it is clamped.
+    constexpr Vec3f blue{0.f, 0.f, 1.f};
+    Image step = constant(120, 5, {});
+    for (int y = 0; y < 5; ++y)
+        for (int x = 60; x < 120; ++x) step.at(x, y, 2) = 1.f;
+    const float error = flip(step, constant(120, 5, {})).map.at(59, 2, 0);
+
+    Vec3f mixed;
+    const Opponent channels[] = {Opponent::achromatic, Opponent::red_green, Opponent::blue_yellow};
+    for (std::size_t c = 0; c < 3; ++c) {
+        float part = 0.f;  // of the light that comes from the blue side
+        for (const SpatialFilter& f : contrast_sensitivity(channels[c], flip_pixels_per_degree))
+            part += f.weight * (0.5f - 0.5f * f.taps[10]);
+        mixed[c] = (1.f - part) * to_ycxcz({})[c] + part * to_ycxcz(blue)[c];
+    }
+    Vec3f rgb = from_ycxcz(mixed);
+    EXPECT_LT(std::min({rgb.x, rgb.y, rgb.z}), -0.001f);
+    const double unclamped = error_of_even(rgb, {});
+    for (int c = 0; c < 3; ++c) rgb[c] = std::clamp(rgb[c], 0.f, 1.f);
+    // |edge| is the luminance of blue, (to_ycxcz(blue).x + 16) / 116.
+    const double feature = std::sqrt((double(to_ycxcz(blue).x) + 16.) / 116. / std::sqrt(2.));
+    const double expected = std::pow(error_of_even(rgb, {}), 1. - feature);
+    EXPECT_NEAR(error, expected, 1e-4);
+    EXPECT_GT(std::abs(std::pow(unclamped, 1. - feature) - expected), 1e-3);
+}
+
 TEST(Flip, FarAwayFinePatternsVanish) {
     // A checkerboard of single pixels against its mean, at its centre, which the border's stripes
     // do not reach: at 150 pixels a degree the eye's filter passes exp(-pi^2 sigma^2 / 2) of a

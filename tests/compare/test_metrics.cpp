@@ -167,6 +167,17 @@ TEST(Metrics, BlocksAverageNoiseAndKeepBias) {
     EXPECT_EQ(compare(p, t, mask, {.block = 33}).block.rms(), 0.);
 }
 
+TEST(Metrics, TheNoiseOfABlockIsThatOfARatioOfSums) {
+    // p = 2 t: the ratio 2 of sums over n = 256 pixels has the variance (v_p + 2^2 v_t) / (n t^2).
+    const Image t = constant(16, 16, {0.5f, 0.5f, 0.5f}), p = constant(16, 16, {1.f, 1.f, 1.f});
+    const Image vp = constant(16, 16, {0.25f, 0.25f, 0.25f}),
+                vt = constant(16, 16, {0.125f, 0.125f, 0.125f});
+    const double noise_p = 0.25 / (256. * 0.25), noise_t = 4. * 0.125 / (256. * 0.25);
+    EXPECT_NEAR(*compare({p, &vp}, t).block.mean_square.noise, noise_p, 1e-12);
+    EXPECT_NEAR(*compare(p, {t, &vt}).block.mean_square.noise, noise_t, 1e-12);
+    EXPECT_NEAR(*compare({p, &vp}, {t, &vt}).block.mean_square.noise, noise_p + noise_t, 1e-12);
+}
+
 TEST(Metrics, WhatTheMaskHidesDoesNotCount) {
     const Image t = waves(16, 16);
     Image p = t, mask = constant(16, 16, {0.f, 1.f, 0.f});
