@@ -331,6 +331,47 @@ TEST(FlipHdr, IsTheLargestOfItsExposures) {
     EXPECT_EQ(one.map.data, flip(tone_mapped(p, 1.), tone_mapped(t, 1.)).map.data);
 }
 
+TEST(FlipHdr, AgreesWithTheAuthorsProgram) {
+    // Means and pixels (20, 15), (33, 40) and (0, 0) by the authors' Python package flip-evaluator
+    // 1.7, which computes in single precision.
+    const Image t = waves(64, 48);
+    Image p = t;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c) {
+                float& v = p.at(x, y, c);
+                if (x >= 12 && x < 30 && y >= 10 && y < 20) v = c == 0 ? 0.8f : 0.1f;
+                if ((x + y) % 7 == 0) v *= 0.7f;
+            }
+    const auto lit = [](Image image) {
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    image.at(x, y, c) *=
+                        std::exp2(5.f * std::sin(0.1f * float(x) + 0.06f * float(y)));
+        return image;
+    };
+    struct Row {
+        double pixels_per_degree;
+        bool hdr;
+        double mean, at[3];
+    };
+    constexpr Row rows[] = {
+        {67.0206, false, 0.1555106, {0.8278344, 0.0630910, 0.3696821}},
+        {67.0206, true, 0.1334160, {0.9114972, 0.0439416, 0.2442920}},
+        {30.0, false, 0.1606151, {0.8240057, 0.0492012, 0.5152021}},
+        {30.0, true, 0.1263987, {0.9670291, 0.0165633, 0.3759247}},
+    };
+    for (const Row& row : rows) {
+        const FlipResult r = row.hdr ? flip_hdr(lit(p), lit(t), {}, row.pixels_per_degree)
+                                     : flip(p, t, {}, row.pixels_per_degree);
+        EXPECT_NEAR(r.mean, row.mean, 2e-5);
+        EXPECT_NEAR(r.map.at(20, 15, 0), row.at[0], 1e-4);
+        EXPECT_NEAR(r.map.at(33, 40, 0), row.at[1], 1e-4);
+        EXPECT_NEAR(r.map.at(0, 0, 0), row.at[2], 1e-4);
+    }
+}
+
 TEST(FlipHdr, DoesNotDependOnTheUnitOfLight) {
     Image t = waves(40, 40);
     t.at(20, 20, 1) = 30.f;
