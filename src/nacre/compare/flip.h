@@ -10,7 +10,7 @@
 // eye would see (flip_color.h, after the filters of flip_filters.h) and F the difference of edges
 // and points, F = (max(|edges|, |points|) / sqrt(2))^q_f with q_f = 0.5. Its mean is the number to
 // quote. Constants are the papers'; those of single steps stand where the steps are. The
-// authors' program (flip-evaluator 1.7) gives the same to 5e-5 a pixel
+// authors' program (flip-evaluator 1.7) gives the same to 1e-4 a pixel
 // (tests/compare/test_flip.cpp).
 //
 // Pictures are linear RGB. Values are not rounded to 8 bits as they would be in a file.
