@@ -27,6 +27,8 @@ class DiffuseBssrdf {
         : eta_(eta),
           scale_(exit == ExitFresnel::paper ? 1. : 1. / (1. - diffuse_reflectance_external(eta))) {}
 
+    /// X over T: 1, or 1 over the mean transmittance.
+    double scale() const { return scale_; }
     /// T(wi): the share of light at outer cosine cos_i >= 0 that enters.
     template <class T>
     T entry(T cos_i) const {

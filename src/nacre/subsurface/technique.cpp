@@ -155,8 +155,9 @@ class TechniqueIntegrator final : public Integrator {
         const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
         refuse_flat(scene, shape);
         const float eta = boundary_eta(scene.shapes[shape]);
-        const float scale =
-            settings.exit == "paper" ? 1.f : float(1. / (1. - diffuse_reflectance_external(eta)));
+        const DiffuseBssrdf boundary(
+            eta, settings.exit == "paper" ? ExitFresnel::paper : ExitFresnel::normalised);
+        const float scale = float(boundary.scale());
         return at_place(settings, [&] {
             return maker({scene, shape, settings, eta, scale, light, statistics_});
         });
