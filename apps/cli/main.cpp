@@ -25,6 +25,8 @@ constexpr Verb verbs[] = {
     {"check", "check models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
     {"diff", "compare two pictures", set_up_diff},
+    {"compare", "compare all techniques on a scene: error, time, memory, as a report",
+     set_up_compare},
     {"image", "convert an image between EXR, PFM, HDR and PNG", set_up_image},
     {"gallery", "render the figures of the classic papers", set_up_gallery},
 };

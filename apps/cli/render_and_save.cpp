@@ -97,14 +97,4 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
     return stopped ? interrupted : success;
 }
 
-std::pair<int, int> parse_size(const std::string& option, const std::string& text) {
-    int width = 0, height = 0;
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 ||
-        height < 1 || width > 65536 || height > 65536)
-        throw InputError(fmt::format(
-            "{}: '{}' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480", option, text));
-    return {width, height};
-}
-
 }  // namespace nacre::cli

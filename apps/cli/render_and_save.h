@@ -20,7 +20,4 @@ struct SaveOptions {
 /// NAME.partial.exr. Throws RunError for invalid samples if `strict`, and then writes nothing.
 int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation);
 
-/// "--size 640x480" and the like: two positive numbers; throws InputError that names the option.
-std::pair<int, int> parse_size(const std::string& option, const std::string& text);
-
 }  // namespace nacre::cli

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/render_and_save.h"
+#include "apps/cli/scene_input.h"
 #include "nacre/scene/demo_scene.h"
 #include "nacre/scene/image.h"
 

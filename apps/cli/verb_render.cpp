@@ -3,48 +3,25 @@
 #include <cstdio>
 
 #include "apps/cli/render_and_save.h"
+#include "apps/cli/scene_input.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/image.h"
-#include "nacre/scene/load.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
 namespace {
 
 struct Options {
-    std::string scene, output, size, crop, integrator, mode, material, technique, profile;
-    std::vector<std::string> defines, set;
+    SceneInput input;
+    std::string output, crop, integrator, technique, profile;
+    std::vector<std::string> set;
     int threads = 0, spp = 0;
     std::uint64_t seed = 0;
-    double timeout = 0, height_mm = 0;
+    double timeout = 0;
     float exposure = 0;
     bool strict = false, quiet = false, json = false, variance = false;
     bool no_distance_grid = false, no_guided_exits = false;
 };
-
-// Scenes of another renderer go to the scene reader too, which says what to do with them.
-bool is_scene(const std::filesystem::path& file) {
-    const std::string ext = file.extension().string();
-    return ext == ".xml" || ext == ".XML" || ext == ".pbrt";
-}
-
-std::optional<ColorMode> parse_mode(const std::string& text) {
-    if (text.empty()) return {};
-    if (text == "rgb") return ColorMode::rgb_bands;
-    if (text == "spectral") return ColorMode::spectral;
-    throw InputError(fmt::format("--mode: '{}' is unknown; known are: rgb, spectral", text));
-}
-
-std::map<std::string, std::string> parse_defines(const std::vector<std::string>& defines) {
-    std::map<std::string, std::string> r;
-    for (const std::string& d : defines) {
-        const std::size_t equals = d.find('=');
-        if (equals == 0 || equals == d.npos)
-            throw InputError(fmt::format("-D: '{}' is not of the form name=value", d));
-        r[d.substr(0, equals)] = d.substr(equals + 1);
-    }
-    return r;
-}
 
 void set_crop(FilmSettings& film, const std::string& text) {
     int x = 0, y = 0, w = 0, h = 0;
@@ -76,38 +53,6 @@ void set_technique(Scene& scene, const Options& o, const CLI::App& app) {
     choose_technique(scene, choice);
 }
 
-Scene load(const Options& o, const CLI::App& app) {
-    const std::filesystem::path file = o.scene;
-    if (has_image_extension(file))
-        throw InputError(fmt::format("{}: is an image; render takes a scene or a mesh", o.scene));
-    const auto refuse = [&](const char* option, const char* why) {
-        if (app.count(option)) throw InputError(fmt::format("{}: {} {}", o.scene, option, why));
-    };
-    const std::optional<ColorMode> mode = parse_mode(o.mode);
-    if (is_scene(file)) {
-        const char* why = "is for bare meshes; a scene says itself what its shapes are";
-        refuse("--material", why);
-        refuse("--height-mm", why);
-        LoadOptions load;
-        load.defines = parse_defines(o.defines);
-        load.mode = mode;
-        if (!o.size.empty()) std::tie(load.width, load.height) = parse_size("--size", o.size);
-        return load_scene(file, load);
-    }
-    refuse("-D", "is for scene files; a mesh has no names to set");
-    MeshSceneOptions mesh;
-    mesh.mode = mode;
-    if (!o.material.empty()) mesh.material = o.material;
-    if (app.count("--height-mm")) {
-        if (!(o.height_mm > 0) || !std::isfinite(o.height_mm))
-            throw InputError(
-                fmt::format("--height-mm: {} is not a height; it must be positive", o.height_mm));
-        mesh.height_mm = o.height_mm;
-    }
-    if (!o.size.empty()) std::tie(mesh.width, mesh.height) = parse_size("--size", o.size);
-    return load_mesh_scene(file, mesh);
-}
-
 int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     // What is wrong with the command line is said before anything is read, and what is wrong with
     // the output before anything is rendered.
@@ -122,11 +67,12 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
         throw InputError(
             fmt::format("--timeout: {} seconds are no time; it must be positive", o.timeout));
     SaveOptions save;
-    save.output = o.output.empty() ? std::filesystem::path(o.scene).stem().replace_extension(".exr")
-                                   : std::filesystem::path(o.output);
+    save.output = o.output.empty()
+                      ? std::filesystem::path(o.input.scene).stem().replace_extension(".exr")
+                      : std::filesystem::path(o.output);
     check_image_output(save.output);
 
-    Scene scene = load(o, app);
+    Scene scene = load(o.input, app);
     if (!o.crop.empty()) set_crop(scene.film, o.crop);
     if (o.spp) scene.sampler.samples = o.spp;
     if (app.count("--seed")) scene.sampler.seed = o.seed;
@@ -135,7 +81,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     if (o.no_distance_grid) scene.integrator.distance_grid = false;
     if (o.no_guided_exits) scene.integrator.guided_exits = false;
     if (o.variance) scene.integrator.moment = true;
-    save.scene_file = o.scene;
+    save.scene_file = o.input.scene;
     save.threads = o.threads;
     save.timeout_s = o.timeout;
     save.exposure = o.exposure;
@@ -149,16 +95,15 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
 
 Action set_up_render(CLI::App& app, const Invocation& invocation) {
     auto o = std::make_shared<Options>();
-    app.add_option("scene", o->scene, "scene (.xml) or mesh (.ply, .obj, .stl, .off, .glb, ...)")
+    app.add_option("scene", o->input.scene,
+                   "scene (.xml) or mesh (.ply, .obj, .stl, .off, .glb, ...)")
         ->required();
     app.add_option("-o,--output", o->output,
                    "picture: .exr, .pfm, .hdr or .png (default: name of the scene, .exr)");
-    app.add_option("-D,--define", o->defines, "name=value: sets a <default> of the scene")
-        ->allow_extra_args(false);
+    add_scene_options(app, o->input);
     app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
     app.add_option("--spp", o->spp, "samples a pixel, instead of the scene's");
     app.add_option("--seed", o->seed, "of the random numbers, instead of the scene's");
-    app.add_option("--size", o->size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
     app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is");
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
@@ -168,12 +113,7 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
                    "diffusion profile of the technique (dipole); see 'nacre models'");
     app.add_option("--set", o->set, "name=value: an option of the technique")
         ->allow_extra_args(false);
-    app.add_option("--mode", o->mode, "rgb or spectral (default: what the scene needs)");
     app.add_option("--exposure", o->exposure, "stops, for .png");
-    app.add_option(
-        "--material", o->material,
-        "of a bare mesh: a measured medium or skin (see 'nacre models'; default: marble)");
-    app.add_option("--height-mm", o->height_mm, "height of a bare mesh (default: 100)");
     app.add_flag("--variance", o->variance, "also write the variance of one sample (EXR)");
     app.add_flag("--strict", o->strict,
                  "fail, and write nothing, if any sample is not finite or negative");

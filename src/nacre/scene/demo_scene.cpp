@@ -118,6 +118,7 @@ Scene make_demo_scene(int width, int height) {
     Scene scene = build_scene(*root, context, ColorMode::rgb_bands);
     scene.lights.push_back(studio(0.5f * length(scene.rays.bounds().diagonal())));
     scene.environment = scene.lights.back().get();
+    scene.root = root;
     return scene;
 }
 

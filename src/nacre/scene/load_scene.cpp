@@ -175,6 +175,7 @@ Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<Co
 
     scene.mode = mode.value_or(any_spectral(scene) ? ColorMode::spectral : ColorMode::rgb_bands);
     scene.warnings = context.warnings;
+    scene.search_path = context.search_path;
     return scene;
 }
 
@@ -183,7 +184,9 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     context.film_width = options.width;
     context.film_height = options.height;
     const SceneNodePtr root = read_scene_xml(file, options.defines, context.search_path);
-    return build_scene(*root, context, options.mode);
+    Scene scene = build_scene(*root, context, options.mode);
+    scene.root = root;
+    return scene;
 }
 
 }  // namespace nacre

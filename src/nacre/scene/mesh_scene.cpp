@@ -165,7 +165,9 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
 
     BuildContext context;
     context.meshes[shape.get()] = object;
-    return build_scene(*root, context, options.mode);
+    Scene scene = build_scene(*root, context, options.mode);
+    scene.root = root;
+    return scene;
 }
 
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 // What a scene is, ready to render.
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 namespace nacre {
 
 struct SubsurfaceSettings;
+class SceneNode;
 
 /// What is attached to shape i of the ray scene.
 struct ShapeBinding {
@@ -82,6 +84,10 @@ struct Scene {
     SamplerSettings sampler;
     IntegratorSettings integrator;
     std::vector<std::string> warnings;
+    /// What it was built from, and where its files were looked for: for those who tell scenes apart
+    /// (content_key.h) or hand them to other renderers. Null if it was put together by hand.
+    std::shared_ptr<const SceneNode> root;
+    std::vector<std::filesystem::path> search_path;
 };
 
 }  // namespace nacre

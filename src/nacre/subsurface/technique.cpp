@@ -42,6 +42,8 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "tables of the profile",
      .may_change = "view, light, geometry",
      .profiles = "all",
+     .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
+                 "profile=photon_beam_diffusion|profile=normalised_diffusion",
      .make = make_surface_sampling},
     {.name = "two_pass",
      .title = "two-pass hierarchy",
@@ -53,6 +55,7 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "surface points, irradiance, hierarchy",
      .may_change = "view",
      .profiles = "dipole, better_dipole",
+     .variants = "error=1|error=0.2|error=0.05",
      .make = make_two_pass},
 };
 
@@ -175,6 +178,29 @@ const TechniqueDescription& find_technique(std::string_view name) {
     const int i = find_name(name, names);
     if (i < 0) throw InputError(unknown_name("technique", name, names));
     return catalogue[i];
+}
+
+std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique) {
+    std::vector<TechniqueChoice> variants(1, {std::string(technique.name)});
+    std::string word;
+    const auto end_word = [&] {
+        const std::size_t equals = word.find('=');
+        if (equals != word.npos) {
+            const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+            if (name == "profile")
+                variants.back().profile = value;
+            else
+                variants.back().options.emplace_back(name, value);
+        }
+        word.clear();
+    };
+    for (const char c : technique.variants) {
+        if (c != ' ' && c != '|') word += c;
+        if (c == ' ' || c == '|') end_word();
+        if (c == '|') variants.push_back({std::string(technique.name)});
+    }
+    end_word();
+    return variants;
 }
 
 void choose_technique(Scene& scene, const TechniqueChoice& choice) {

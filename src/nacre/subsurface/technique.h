@@ -37,6 +37,9 @@ struct TechniqueDescription {
     std::string_view precomputes;  ///< before the first picture; empty if nothing
     std::string_view may_change;  ///< without computing that again: view, light, material, geometry
     std::string_view profiles = "";  ///< that it takes; empty if it needs none
+    /// Settings at which a comparison runs the technique: "profile=dipole error=0.2", several
+    /// separated by '|'; empty: the defaults.
+    std::string_view variants = "";
     TranslucencyPtr (*make)(const TechniqueInput&) = nullptr;  ///< null: complete simulation
 };
 
@@ -50,6 +53,8 @@ struct TechniqueChoice {
     std::string profile = {};  ///< empty: as the scene says, or the dipole
     std::vector<std::pair<std::string, std::string>> options = {};  ///< as of set_option
 };
+/// What `variants` of a technique says, at least one.
+std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique);
 /// Has the scene rendered by a technique: complete simulation by volpath, any other by path with
 /// that technique in all translucent shapes. Throws InputError for unknown names and values, and if
 /// nothing in the scene is translucent.

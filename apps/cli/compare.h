@@ -1,0 +1,52 @@
+#pragma once
+// What the kinds of comparison share: their options, progress on standard error.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/cli/scene_input.h"
+#include "apps/cli/verb.h"
+#include "nacre/compare/experiment.h"
+
+namespace nacre::cli {
+
+struct CompareOptions {
+    SceneInput input;
+    std::string techniques = "all", reference = "volpath", reference_error = "0.5%";
+    std::string samples = "16", suite, models, target, peers, keep;
+    std::filesystem::path output = "report";
+    int repeats = 3, threads = 0;
+    std::uint64_t seed = 0;
+    bool fresh = false, quiet = false, json = false;
+};
+
+int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation& invocation);
+
+/// "0.5%" or "0.005"; throws InputError that names the option.
+double parse_share(const std::string& option, const std::string& text);
+/// "4,16"; throws InputError that names the option.
+std::vector<int> parse_counts(const std::string& option, const std::string& text);
+std::vector<std::string> parse_names(const std::string& text);
+/// Where references are kept unless said otherwise: $XDG_CACHE_HOME/nacre/references.
+std::filesystem::path reference_store(const CompareOptions& o);
+/// Version, and a hash of the program itself: another build may be faster or slower.
+std::string build_id();
+
+/// One line a part, with a bar on a terminal.
+class PartProgress {
+  public:
+    explicit PartProgress(bool quiet);
+    ~PartProgress();
+    void show(const ExperimentProgress& p);
+
+  private:
+    void end_line();
+
+    bool quiet_, terminal_;
+    int part_ = 0;
+    int next_tenth_ = 0;
+    bool open_ = false;
+    std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace nacre::cli

@@ -1,0 +1,127 @@
+#include "apps/cli/scene_input.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "nacre/math/error.h"
+#include "nacre/scene/demo_scene.h"
+#include "nacre/scene/image.h"
+#include "nacre/scene/load.h"
+
+namespace nacre::cli {
+namespace {
+
+constexpr const char* demo = "demo";
+constexpr std::pair demo_size{360, 480};
+
+// Scenes of another renderer go to the scene reader too, which says what to do with them.
+bool is_scene(const std::filesystem::path& file) {
+    const std::string ext = file.extension().string();
+    return ext == ".xml" || ext == ".XML" || ext == ".pbrt";
+}
+
+std::optional<ColorMode> parse_mode(const std::string& text) {
+    if (text.empty()) return {};
+    if (text == "rgb") return ColorMode::rgb_bands;
+    if (text == "spectral") return ColorMode::spectral;
+    throw InputError(fmt::format("--mode: '{}' is unknown; known are: rgb, spectral", text));
+}
+
+std::map<std::string, std::string> parse_defines(const std::vector<std::string>& defines) {
+    std::map<std::string, std::string> r;
+    for (const std::string& d : defines) {
+        const std::size_t equals = d.find('=');
+        if (equals == 0 || equals == d.npos)
+            throw InputError(fmt::format("-D: '{}' is not of the form name=value", d));
+        r[d.substr(0, equals)] = d.substr(equals + 1);
+    }
+    return r;
+}
+
+bool is_demo(const SceneInput& input) {
+    return input.scene == demo && !std::filesystem::exists(demo);
+}
+
+std::string quoted(const std::string& word) {
+    return word.find_first_of(" '\"$&;()*?<>|\\") == word.npos ? word : "'" + word + "'";
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneInput& input) {
+    app.add_option("-D,--define", input.defines, "name=value: sets a <default> of the scene")
+        ->allow_extra_args(false);
+    app.add_option("--size", input.size, "WIDTHxHEIGHT in pixels, instead of the scene's");
+    app.add_option("--mode", input.mode, "rgb or spectral (default: what the scene needs)");
+    app.add_option(
+        "--material", input.material,
+        "of a bare mesh: a measured medium or skin (see 'nacre models'; default: marble)");
+    app.add_option("--height-mm", input.height_mm, "height of a bare mesh (default: 100)");
+}
+
+Scene load(const SceneInput& input, const CLI::App& app) {
+    const std::filesystem::path file = input.scene;
+    if (has_image_extension(file))
+        throw InputError(fmt::format("{}: is an image; {} takes a scene or a mesh", input.scene,
+                                     app.get_name().substr(app.get_name().rfind(' ') + 1)));
+    const auto refuse = [&](const char* option, const char* why) {
+        if (app.count(option)) throw InputError(fmt::format("{}: {} {}", input.scene, option, why));
+    };
+    const std::optional<ColorMode> mode = parse_mode(input.mode);
+    std::pair<int, int> size{0, 0};
+    if (!input.size.empty()) size = parse_size("--size", input.size);
+    const char* own = "is for bare meshes; a scene says itself what its shapes are";
+    const char* no_names = "is for scene files; a mesh has no names to set";
+    if (is_demo(input)) {
+        refuse("--material", own);
+        refuse("--height-mm", own);
+        refuse("-D", no_names);
+        refuse("--mode", "is for scenes of others; the built-in one is RGB");
+        if (!size.first) size = demo_size;
+        return make_demo_scene(size.first, size.second);
+    }
+    if (is_scene(file)) {
+        refuse("--material", own);
+        refuse("--height-mm", own);
+        LoadOptions load;
+        load.defines = parse_defines(input.defines);
+        load.mode = mode;
+        std::tie(load.width, load.height) = size;
+        return load_scene(file, load);
+    }
+    refuse("-D", no_names);
+    MeshSceneOptions mesh;
+    mesh.mode = mode;
+    if (!input.material.empty()) mesh.material = input.material;
+    if (app.count("--height-mm")) {
+        if (!(input.height_mm > 0) || !std::isfinite(input.height_mm))
+            throw InputError(fmt::format("--height-mm: {} is not a height; it must be positive",
+                                         input.height_mm));
+        mesh.height_mm = input.height_mm;
+    }
+    if (size.first) std::tie(mesh.width, mesh.height) = size;
+    return load_mesh_scene(file, mesh);
+}
+
+std::string arguments_of(const SceneInput& input) {
+    std::string text = quoted(input.scene);
+    for (const std::string& d : input.defines) text += " -D " + quoted(d);
+    if (!input.size.empty()) text += " --size " + input.size;
+    if (!input.mode.empty()) text += " --mode " + input.mode;
+    if (!input.material.empty()) text += " --material " + quoted(input.material);
+    if (input.height_mm > 0) text += fmt::format(" --height-mm {:g}", input.height_mm);
+    return text;
+}
+
+std::pair<int, int> parse_size(const std::string& option, const std::string& text) {
+    int width = 0, height = 0;
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 ||
+        height < 1 || width > 65536 || height > 65536)
+        throw InputError(fmt::format(
+            "{}: '{}' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480", option, text));
+    return {width, height};
+}
+
+}  // namespace nacre::cli

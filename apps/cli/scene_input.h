@@ -1,0 +1,33 @@
+#pragma once
+// The scene that `render` and `compare` are given: a scene file, a bare mesh, or the built-in one.
+#include <string>
+#include <vector>
+
+#include "nacre/scene/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace nacre::cli {
+
+struct SceneInput {
+    std::string scene;  ///< .xml, a mesh, or "demo"
+    std::vector<std::string> defines;
+    std::string size, mode, material;
+    double height_mm = 0;
+};
+
+/// Declares -D, --size, --mode, --material and --height-mm.
+void add_scene_options(CLI::App& app, SceneInput& input);
+
+/// Loads it. Throws InputError for options that do not belong to this kind of scene.
+Scene load(const SceneInput& input, const CLI::App& app);
+
+/// The words with which `nacre render` loads the same scene.
+std::string arguments_of(const SceneInput& input);
+
+/// "WIDTHxHEIGHT" and the like: two positive numbers; throws InputError that names the option.
+std::pair<int, int> parse_size(const std::string& option, const std::string& text);
+
+}  // namespace nacre::cli

@@ -1,0 +1,52 @@
+// nacre compare: every technique on one scene, error and cost side by side, as a report.
+#include <CLI/CLI.hpp>
+
+#include "apps/cli/compare.h"
+#include "nacre/math/error.h"
+
+namespace nacre::cli {
+namespace {
+
+int run(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
+    const auto at_least = [&](const char* option, int value, int least) {
+        if (app.count(option) && value < least)
+            throw InputError(
+                fmt::format("{}: {} is too few; it must be at least {}", option, value, least));
+    };
+    at_least("--repeats", o.repeats, 2);
+    at_least("--threads", o.threads, 1);
+    return compare_scene(o, app, invocation);
+}
+
+}  // namespace
+
+Action set_up_compare(CLI::App& app, const Invocation& invocation) {
+    auto o = std::make_shared<CompareOptions>();
+    o->input.scene = "demo";
+    app.add_option("scene", o->input.scene,
+                   "scene (.xml), mesh, or demo, the built-in scene (default)");
+    app.add_option("-o,--output", o->output, "folder of the report (report)");
+    app.add_option("--techniques", o->techniques,
+                   "all, or names separated by commas; settings follow a name: "
+                   "two_pass:error=0.1,surface:profile=dipole")
+        ->capture_default_str();
+    app.add_option("--spp", o->samples, "samples a pixel of a frame; several as 4,16")
+        ->capture_default_str();
+    app.add_option("--reference", o->reference, "technique of the reference")
+        ->capture_default_str();
+    app.add_option("--reference-error", o->reference_error,
+                   "noise of the reference, RMS over blocks of 16 x 16 pixels")
+        ->capture_default_str();
+    app.add_option("--repeats", o->repeats, "times that each technique is run, at least 2")
+        ->capture_default_str();
+    app.add_option("--seed", o->seed, "of the random numbers (0)");
+    app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
+    add_scene_options(app, o->input);
+    app.add_option("--keep", o->keep,
+                   "folder where references are kept (default: the user's cache)");
+    app.add_flag("--fresh", o->fresh, "use nothing that was kept");
+    app.add_flag("--quiet", o->quiet, "no progress and no table, only warnings and errors");
+    return [o, &app, invocation] { return run(*o, app, invocation); };
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,119 @@
+#include "nacre/compare/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nacre/math/error.h"
+#include "nacre/scene/content_key.h"
+#include "nacre/scene/subsurface.h"
+
+namespace nacre {
+namespace {
+
+/// What a part is known by: everything that its pictures and times depend on, but the machine.
+std::string key_of(const std::string& scene_key, const Scene& scene,
+                   const TechniqueSetting& setting, const ExperimentOptions& o) {
+    return fmt::format("{} {} sampler {} repeats {} seed {} threads {} build {}", scene_key,
+                       setting.id(), scene.sampler.type, o.repeats, o.seed, o.threads, o.build);
+}
+
+std::filesystem::path file_of(const ExperimentOptions& o, const TechniqueSetting& setting) {
+    std::string name = setting.id();
+    std::ranges::replace(name, '/', '_');
+    std::ranges::replace(name, ' ', '_');
+    return o.folder / (name + ".exr");
+}
+
+}  // namespace
+
+bool Experiment::any_failed() const {
+    return std::ranges::any_of(rows, [](const ExperimentRow& r) {
+        return r.measurement.status == Measurement::Status::failed;
+    });
+}
+
+PixelMask translucent_pixels(const Scene& scene, bool& object_only) {
+    const FilmSettings& film = scene.film;
+    const int width = film.crop_width > 0 ? film.crop_width : film.width,
+              height = film.crop_width > 0 ? film.crop_height : film.height;
+    bool any = false;
+    const auto shows = [&](double x, double y) {
+        const Ray ray = scene.camera->ray(
+            {float((film.crop_x + x) / film.width), float((film.crop_y + y) / film.height)},
+            {0.5f, 0.5f});
+        const auto hit = scene.rays.intersect(ray);
+        if (!hit) return false;
+        const ShapeBinding& shape = scene.shapes[hit->shape];
+        return shape.interior != nullptr || shape.subsurface != nullptr;
+    };
+    // Corners and middle: what lies at the edge of the object is mixed with what is behind.
+    constexpr double places[][2] = {
+        {0.5, 0.5}, {0.02, 0.02}, {0.98, 0.02}, {0.02, 0.98}, {0.98, 0.98}};
+    const PixelMask mask(width, height, [&](int x, int y) {
+        const bool inside = std::ranges::all_of(
+            places, [&](const double(&at)[2]) { return shows(x + at[0], y + at[1]); });
+        any |= inside;
+        return inside;
+    });
+    object_only = any;
+    return any ? mask : PixelMask();
+}
+
+Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
+    Experiment e;
+    e.mask = translucent_pixels(scene, e.object_only);
+    const int parts = int(o.settings.size()) + 1;
+    const auto report = [&](const std::string& what, int part, double share,
+                            std::string note = "") {
+        if (o.progress) o.progress({what, part, parts, share, std::move(note)});
+    };
+
+    ReferenceOptions reference = o.reference;
+    reference.stop = o.stop;
+    reference.threads = o.threads;
+    reference.block = o.block;
+    reference.progress = [&](double share, double error) {
+        report("reference", 1, share, error > 0 ? fmt::format("noise {:.2f} %", 100 * error) : "");
+    };
+    e.reference = make_reference(scene, e.mask, reference);
+    for (const TechniqueSetting& setting : o.settings) {
+        e.rows.push_back({setting, {}, {}, {}});
+        e.rows.back().measurement.id = setting.id();
+    }
+    if (!e.reference.reached) return e;
+
+    const std::string scene_key = content_key(scene);
+    if (!o.folder.empty()) std::filesystem::create_directories(o.folder);
+    for (int i = 0; i < int(e.rows.size()); ++i) {
+        ExperimentRow& row = e.rows[i];
+        const std::string key = key_of(scene_key, scene, row.setting, o);
+        const std::string id = row.setting.id();
+        const std::filesystem::path file =
+            o.folder.empty() ? std::filesystem::path() : file_of(o, row.setting);
+        report(id, i + 2, 0);
+        std::optional<Measurement> kept;
+        if (!o.fresh && !file.empty()) kept = read_measurement(key, file);
+        if (kept) {
+            row.measurement = std::move(*kept);
+            report(id, i + 2, 1, "kept from before");
+        } else {
+            MeasurementOptions options{
+                .repeats = o.repeats, .seed = o.seed, .threads = o.threads, .stop = o.stop};
+            options.progress = [&](double share) { report(id, i + 2, share); };
+            row.measurement = measure(scene, row.setting, options);
+            if (row.measurement.status == Measurement::Status::missing) return e;
+        }
+        if (row.measurement.status != Measurement::Status::done) continue;
+        if (!file.empty()) {
+            if (!row.measurement.reused) write_measurement(row.measurement, key, file);
+            row.file = file;
+        }
+        row.verdict =
+            judge(row.measurement, e.reference.picture, e.reference.variance, e.mask, o.block);
+    }
+    e.complete = true;
+    return e;
+}
+
+}  // namespace nacre

@@ -1,0 +1,55 @@
+#pragma once
+// The experiment: a scene, its reference, and every technique at every setting.
+#include "nacre/compare/measurement.h"
+#include "nacre/compare/reference.h"
+#include "nacre/compare/verdict.h"
+
+namespace nacre {
+
+struct ExperimentProgress {
+    std::string what;  ///< "reference", or the id of a setting
+    int part = 0, parts = 0;
+    double share = 0;  ///< of that part, [0, 1]
+    std::string note;  ///< "noise 0.8 %", "kept from before"
+};
+
+struct ExperimentOptions {
+    std::vector<TechniqueSetting> settings;
+    ReferenceOptions reference;  ///< stop, threads and progress are taken from here
+    int repeats = 3;
+    std::uint64_t seed = 0;
+    int threads = 0;
+    int block = 16;
+    std::filesystem::path folder;  ///< finished pictures are kept there, and reused
+    std::string build;             ///< of the program: what another build measured is not reused
+    bool fresh = false;            ///< measure everything anew
+    const std::atomic<bool>* stop = nullptr;
+    std::function<void(const ExperimentProgress&)> progress = {};
+};
+
+struct ExperimentRow {
+    TechniqueSetting setting;
+    Measurement measurement;
+    std::optional<Verdict> verdict;  ///< if it is done
+    std::filesystem::path file;      ///< of its pictures, if there is one
+};
+
+struct Experiment {
+    Reference reference;
+    PixelMask mask;            ///< pixels that count
+    bool object_only = false;  ///< only translucent objects count, else the whole picture
+    std::vector<ExperimentRow> rows;
+    bool complete = false;  ///< false: stopped
+
+    bool any_failed() const;
+};
+
+/// Pixels all of which show a translucent object; all pixels if there is no such object, and then
+/// `object_only` is false.
+PixelMask translucent_pixels(const Scene& scene, bool& object_only);
+
+/// Runs it. The scene is as it was when it returns. Throws InputError for a wrong reference, and if
+/// the object is too small in the picture to be measured.
+Experiment run_experiment(Scene& scene, const ExperimentOptions& options);
+
+}  // namespace nacre

@@ -1,0 +1,27 @@
+#pragma once
+// What was measured on, and how much memory it took.
+#include <string>
+
+namespace nacre {
+
+struct Machine {
+    std::string processor;  ///< as it calls itself
+    int threads = 1;        ///< that can run at once
+    double memory_gb = 0;
+    std::string system;  ///< name and release of the kernel
+};
+Machine this_machine();
+
+/// The most memory (MB, 10^6 bytes) that the process holds beyond what it held when this was made.
+/// Pages that were freed but are kept by the allocator are given back first. Linux only: elsewhere
+/// `mb` is 0. Resets the kernel's mark of the process, so that two must not overlap.
+class PeakMemory {
+  public:
+    PeakMemory();
+    double mb() const;
+
+  private:
+    double before_ = 0;
+};
+
+}  // namespace nacre

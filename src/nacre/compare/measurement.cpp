@@ -1,0 +1,103 @@
+#include "nacre/compare/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nacre/compare/machine.h"
+#include "nacre/math/error.h"
+#include "nacre/math/random.h"
+
+namespace nacre {
+namespace {
+
+Image picture_of(const Film& film) {
+    Image image(film.width(), film.height());
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x) {
+            const Vec3f m = film.mean(x, y);
+            for (int c = 0; c < 3; ++c) image.at(x, y, c) = m[c];
+        }
+    return image;
+}
+
+/// Mean of the frames, and the variance of that mean.
+void set_moments(Measurement& m, const std::vector<Image>& frames) {
+    m.mean = Image(frames[0].width, frames[0].height);
+    m.variance = m.mean;
+    const double n = double(frames.size());
+    for (std::size_t i = 0; i < m.mean.data.size(); ++i) {
+        double sum = 0, squares = 0;
+        for (const Image& f : frames) sum += f.data[i];
+        for (const Image& f : frames) {
+            const double d = f.data[i] - sum / n;
+            squares += d * d;
+        }
+        m.mean.data[i] = float(sum / n);
+        m.variance.data[i] = float(squares / (n - 1) / n);
+    }
+}
+
+void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
+                  const MeasurementOptions& options) {
+    const WithSetting as_setting(scene, setting.choice);
+    scene.sampler.samples = setting.samples;
+    scene.integrator.moment = false;
+    const PeakMemory memory;
+    std::vector<Image> frames;
+    for (int repeat = 0; repeat < options.repeats; ++repeat) {
+        if (options.stop && options.stop->load()) return;
+        scene.sampler.seed = stream_key(options.seed, std::uint64_t(repeat));
+        RenderOptions render_options;
+        render_options.threads = options.threads;
+        render_options.stop = options.stop;
+        if (options.progress)
+            render_options.progress = [&](const RenderProgress& p) {
+                options.progress((repeat + double(p.done) / double(p.total)) / options.repeats);
+            };
+        const RenderResult r = render_with(scene, make_technique_integrator, render_options);
+        if (!r.complete) return;
+        frames.push_back(picture_of(r.film));
+        m.timings.push_back(
+            {r.seconds, r.cpu_seconds, r.precompute_seconds, r.precompute_cpu_seconds});
+        m.invalid_samples += r.film.invalid_count();
+        if (repeat == 0) m.statistics = r.statistics;
+    }
+    m.memory_mb = memory.mb();
+    m.frame = frames[0];
+    set_moments(m, frames);
+    m.status = Measurement::Status::done;
+}
+
+}  // namespace
+
+double Measurement::median_of(double Timing::*what) const {
+    std::vector<double> values;
+    for (const Timing& t : timings) values.push_back(t.*what);
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t n = values.size();
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+Measurement measure(Scene& scene, const TechniqueSetting& setting,
+                    const MeasurementOptions& options) {
+    if (options.repeats < 2)
+        throw InputError(fmt::format(
+            "{} repeats do not tell noise from bias; at least 2 are needed", options.repeats));
+    Measurement m;
+    m.id = setting.id();
+    m.samples = setting.samples;
+    try {
+        measure_into(m, scene, setting, options);
+    } catch (const std::bad_alloc&) {
+        m.status = Measurement::Status::failed;
+        m.why = "out of memory";
+    } catch (const std::exception& error) {
+        m.status = Measurement::Status::failed;
+        m.why = error.what();
+    }
+    return m;
+}
+
+}  // namespace nacre

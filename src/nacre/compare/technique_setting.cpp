@@ -1,0 +1,120 @@
+#include "nacre/compare/technique_setting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nacre/bssrdf/profile.h"
+#include "nacre/math/error.h"
+
+namespace nacre {
+namespace {
+
+std::vector<std::string> split(std::string_view text, char at) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == at)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+TechniqueChoice parse_choice(const std::vector<std::string>& words) {
+    TechniqueChoice choice;
+    choice.technique = std::string(find_technique(words[0]).name);
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::size_t equals = words[i].find('=');
+        if (equals == 0 || equals == words[i].npos)
+            throw InputError(
+                fmt::format("'{}' of {} is not of the form name=value", words[i], words[0]));
+        const std::string name = words[i].substr(0, equals), value = words[i].substr(equals + 1);
+        if (name == "profile")
+            choice.profile = std::string(find_profile(value).name);
+        else
+            choice.options.emplace_back(name, value);
+    }
+    SubsurfaceSettings checked;  // a wrong option is better known before than after an hour
+    for (const auto& [name, value] : choice.options) set_option(checked, name, value);
+    return choice;
+}
+
+std::vector<TechniqueChoice> parse_list(std::string_view list) {
+    std::vector<TechniqueChoice> choices;
+    const auto add_variants = [&](const TechniqueDescription& technique) {
+        for (TechniqueChoice& c : variants_of(technique)) choices.push_back(std::move(c));
+    };
+    if (list == "all") {
+        for (const TechniqueDescription& t : techniques()) add_variants(t);
+        return choices;
+    }
+    for (const std::string& item : split(list, ',')) {
+        const std::vector<std::string> words = split(item, ':');
+        if (words.size() == 1)
+            add_variants(find_technique(item));
+        else
+            choices.push_back(parse_choice(words));
+    }
+    return choices;
+}
+
+}  // namespace
+
+std::string TechniqueSetting::options() const {
+    std::string text;
+    if (!choice.profile.empty()) text = "profile=" + choice.profile;
+    for (const auto& [name, value] : choice.options)
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+    return text;
+}
+
+std::string TechniqueSetting::id() const {
+    const std::string o = options();
+    return fmt::format("{}{}{} {} spp", choice.technique, o.empty() ? "" : " ", o, samples);
+}
+
+std::string TechniqueSetting::arguments() const {
+    std::string text = "--technique " + choice.technique;
+    if (!choice.profile.empty()) text += " --profile " + choice.profile;
+    for (const auto& [name, value] : choice.options)
+        text += fmt::format(" --set {}={}", name, value);
+    return text + fmt::format(" --spp {}", samples);
+}
+
+std::vector<TechniqueSetting> parse_techniques(std::string_view list,
+                                               const std::vector<int>& samples) {
+    std::vector<TechniqueSetting> settings;
+    for (const TechniqueChoice& choice : parse_list(list))
+        for (const int n : samples) {
+            if (n < 1) throw InputError(fmt::format("{} samples a pixel make no picture", n));
+            const TechniqueSetting setting{choice, n};
+            const bool twice = std::ranges::any_of(
+                settings, [&](const TechniqueSetting& s) { return s.id() == setting.id(); });
+            if (twice) throw InputError(fmt::format("'{}' is asked for twice", setting.id()));
+            settings.push_back(setting);
+        }
+    return settings;
+}
+
+WithSetting::WithSetting(Scene& scene, const TechniqueChoice& choice)
+    : scene_(scene), integrator_(scene.integrator), sampler_(scene.sampler) {
+    for (const ShapeBinding& s : scene.shapes) subsurface_.push_back(s.subsurface);
+    try {
+        choose_technique(scene, choice);
+    } catch (...) {
+        restore();
+        throw;
+    }
+}
+
+WithSetting::~WithSetting() { restore(); }
+
+void WithSetting::restore() {
+    scene_.integrator = integrator_;
+    scene_.sampler = sampler_;
+    for (std::size_t i = 0; i < subsurface_.size(); ++i)
+        scene_.shapes[i].subsurface = subsurface_[i];
+}
+
+}  // namespace nacre

@@ -1,0 +1,121 @@
+#include "nacre/scene/content_key.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+
+#include "nacre/math/random.h"
+#include "nacre/scene/scene_node.h"
+
+namespace nacre {
+namespace {
+
+class Hash {
+  public:
+    void add(std::uint64_t v) { state_ = mix_bits(state_ ^ mix_bits(v + 0x9e3779b97f4a7c15ull)); }
+    void add(double v) { add(std::bit_cast<std::uint64_t>(v)); }
+    void add_bytes(const void* data, std::size_t size) {
+        add(std::uint64_t(size));
+        const char* at = static_cast<const char*>(data);
+        for (; size >= 8; at += 8, size -= 8) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, at, 8);
+            add(word);
+        }
+        std::uint64_t rest = 0;
+        std::memcpy(&rest, at, size);
+        add(rest);
+    }
+    void add(std::string_view text) { add_bytes(text.data(), text.size()); }
+    template <class T>
+    void add_all(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add_bytes(values.data(), values.size() * sizeof(T));
+    }
+    std::uint64_t value() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0;
+};
+
+void add_file(Hash& hash, const std::string& name,
+              const std::vector<std::filesystem::path>& search_path) {
+    hash.add(name);
+    for (const std::filesystem::path& folder : search_path) {
+        std::error_code error;
+        const std::filesystem::path file = folder / name;
+        if (!std::filesystem::is_regular_file(file, error)) continue;
+        std::ifstream in(file, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        if (!in)
+            throw RunError(fmt::format("{}: cannot be read; check its permissions", file.string()));
+        return hash.add(bytes);
+    }
+}
+
+void add_color(Hash& hash, const ColorValue& c) {
+    hash.add(std::uint64_t(c.kind));
+    for (float v : {c.rgb.x, c.rgb.y, c.rgb.z, c.value, c.kelvin}) hash.add(double(v));
+    hash.add_all(c.nm);
+    hash.add_all(c.values);
+}
+
+void add_node(Hash& hash, const SceneNode& node,
+              const std::vector<std::filesystem::path>& search_path) {
+    hash.add(node.tag);
+    hash.add(node.type);
+    hash.add(std::uint64_t(node.values.size()));
+    for (const SceneValue& v : node.values) {
+        hash.add(v.name);
+        hash.add(std::uint64_t(v.value.index()));
+        if (const auto* number = std::get_if<double>(&v.value)) hash.add(*number);
+        if (const auto* whole = std::get_if<std::int64_t>(&v.value))
+            hash.add(std::uint64_t(*whole));
+        if (const auto* flag = std::get_if<bool>(&v.value)) hash.add(std::uint64_t(*flag));
+        if (const auto* text = std::get_if<std::string>(&v.value))
+            v.name == "filename" ? add_file(hash, *text, search_path) : hash.add(*text);
+        if (const auto* vector = std::get_if<Vec3d>(&v.value))
+            for (int i = 0; i < 3; ++i) hash.add((*vector)[i]);
+        if (const auto* transform = std::get_if<Transform>(&v.value))
+            for (double m : transform->matrix()) hash.add(m);
+        if (const auto* color = std::get_if<ColorValue>(&v.value)) add_color(hash, *color);
+    }
+    for (const SceneNode::Child& child : node.children) {
+        if (child.node->tag == "sampler" || child.node->tag == "integrator") continue;
+        hash.add(child.name);
+        add_node(hash, *child.node, search_path);
+    }
+    hash.add(std::string_view("end"));
+}
+
+void add_film(Hash& hash, const FilmSettings& film) {
+    for (int v : {film.width, film.height, film.crop_x, film.crop_y, film.crop_width,
+                  film.crop_height, int(film.quantity)})
+        hash.add(std::uint64_t(v));
+}
+
+}  // namespace
+
+std::string content_key(const Scene& scene) {
+    if (!scene.root)
+        throw InputError("the scene was put together by hand: there is nothing to make a key of");
+    Hash hash;
+    hash.add(std::string_view("nacre scene 1"));
+    add_node(hash, *scene.root, scene.search_path);
+    // Meshes that came from no file are part of no node.
+    for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
+        if (const Mesh* mesh = scene.rays.mesh(i)) {
+            hash.add_all(mesh->positions);
+            hash.add_all(mesh->triangles);
+            hash.add_all(mesh->normals);
+        }
+    add_film(hash, scene.film);
+    hash.add(std::uint64_t(scene.mode));
+    hash.add(std::uint64_t(std::int64_t(scene.integrator.max_depth)));
+    hash.add(std::uint64_t(scene.integrator.hide_emitters));
+    return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace nacre
