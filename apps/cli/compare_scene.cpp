@@ -42,8 +42,7 @@ void print_table(const Experiment& e) {
 
 }  // namespace
 
-int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
-    // What is wrong with the command line is said before anything is read.
+ExperimentOptions experiment_options(const CompareOptions& o) {
     ExperimentOptions options;
     options.settings = parse_techniques(o.techniques, parse_counts("--spp", o.samples));
     options.reference.technique = {std::string(find_technique(o.reference).name)};
@@ -56,7 +55,12 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
     options.folder = o.output / "pictures";
     options.build = build_id();
     options.fresh = o.fresh;
+    return options;
+}
 
+int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
+    // What is wrong with the command line is said before anything is read.
+    ExperimentOptions options = experiment_options(o);
     Scene scene = load(o.input, app);
     for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
     const std::atomic<bool>& stop = interrupt_flag();

@@ -15,6 +15,8 @@ int run(const CompareOptions& o, const CLI::App& app, const Invocation& invocati
     };
     at_least("--repeats", o.repeats, 2);
     at_least("--threads", o.threads, 1);
+    if (!o.suite.empty()) return compare_suite(o, app, invocation);
+    if (!o.cases.empty()) throw InputError("--cases belongs to --suite, which is missing");
     return compare_scene(o, app, invocation);
 }
 
@@ -42,6 +44,10 @@ Action set_up_compare(CLI::App& app, const Invocation& invocation) {
     app.add_option("--seed", o->seed, "of the random numbers (0)");
     app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
     add_scene_options(app, o->input);
+    app.add_option("--suite", o->suite, "translucency: the project's own 60 scenes instead of one");
+    app.add_option("--cases", o->cases,
+                   "of the suite only these: words of objects, albedo, matter and light, such as "
+                   "ball,bust,front");
     app.add_option("--keep", o->keep,
                    "folder where references are kept (default: the user's cache)");
     app.add_flag("--fresh", o->fresh, "use nothing that was kept");

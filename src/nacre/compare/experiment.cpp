@@ -101,7 +101,9 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
             MeasurementOptions options{
                 .repeats = o.repeats, .seed = o.seed, .threads = o.threads, .stop = o.stop};
             options.progress = [&](double share) { report(id, i + 2, share); };
-            row.measurement = measure(scene, row.setting, options);
+            const bool simulates = !find_technique(row.setting.choice.technique).make;
+            Scene& rendered = o.simplified && !simulates ? *o.simplified : scene;
+            row.measurement = measure(rendered, row.setting, options);
             if (row.measurement.status == Measurement::Status::missing) return e;
         }
         if (row.measurement.status != Measurement::Status::done) continue;

@@ -23,6 +23,9 @@ struct ExperimentOptions {
     std::filesystem::path folder;  ///< finished pictures are kept there, and reused
     std::string build;             ///< of the program: what another build measured is not reused
     bool fresh = false;            ///< measure everything anew
+    /// What techniques other than complete simulation render instead of the scene, if they cannot
+    /// take it; null: the scene.
+    Scene* simplified = nullptr;
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const ExperimentProgress&)> progress = {};
 };

@@ -1,0 +1,226 @@
+#include "nacre/compare/report_suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "nacre/compare/printed_numbers.h"
+#include "nacre/compare/report.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int thumbnail_side = 96;
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+double root_mean_square(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v * v;
+    return values.empty() ? 0 : std::sqrt(sum / double(values.size()));
+}
+
+/// The cells of one technique over all cases.
+std::vector<const SuiteCell*> of_technique(const std::vector<SuiteResult>& results,
+                                           const std::string& id) {
+    std::vector<const SuiteCell*> cells;
+    for (const SuiteResult& r : results)
+        for (const SuiteCell& c : r.cells)
+            if (c.id == id) cells.push_back(&c);
+    return cells;
+}
+
+std::vector<double> values(const std::vector<const SuiteCell*>& cells, double SuiteCell::*what) {
+    std::vector<double> list;
+    for (const SuiteCell* c : cells)
+        if (c->why.empty()) list.push_back(c->*what);
+    return list;
+}
+
+ordered_json matrix(const std::vector<SuiteResult>& results) {
+    ordered_json m{{"title", "Every case, every technique"},
+                   {"label_titles", {"object", "albedo", "matter", "light"}}};
+    const auto measure = [](const char* key, const char* title, const char* unit, int digits) {
+        return ordered_json{{"key", key}, {"title", title}, {"unit", unit}, {"digits", digits}};
+    };
+    m["measures"] = {measure("systematic", "systematic error", "%", 1),
+                     measure("bias", "brightness", "%", 1), measure("flip", "HDR-FLIP", "", 3),
+                     measure("frame", "frame time", "s", 2),
+                     measure("precompute", "precomputation", "s", 2)};
+    m["cases"] = ordered_json::array();
+    for (const SuiteResult& r : results) {
+        ordered_json cells = ordered_json::object();
+        for (const SuiteCell& c : r.cells) {
+            if (!c.why.empty()) {
+                cells[c.id] = {{"why", c.why}};
+                continue;
+            }
+            cells[c.id] = {{"systematic", 100 * c.systematic},
+                           {"bias", 100 * c.bias},
+                           {"flip", c.flip},
+                           {"frame", c.frame},
+                           {"precompute", c.precompute}};
+        }
+        m["cases"].push_back({{"id", r.which.id()},
+                              {"labels", r.which.labels()},
+                              {"picture", r.which.id()},
+                              {"cells", cells}});
+    }
+    m["techniques"] = ordered_json::array();
+    if (!results.empty())
+        for (const SuiteCell& c : results.front().cells)
+            m["techniques"].push_back({{"id", c.id}, {"title", c.title}});
+    return m;
+}
+
+/// One row a technique, over all cases that it could do.
+ordered_json summary_rows(const std::vector<SuiteResult>& results) {
+    ordered_json rows = ordered_json::array();
+    if (results.empty()) return rows;
+    for (const SuiteCell& first : results.front().cells) {
+        const auto cells = of_technique(results, first.id);
+        const auto errors = values(cells, &SuiteCell::systematic);
+        const std::string name = first.id.substr(0, first.id.find(' '));
+        ordered_json row{
+            {"id", first.id},
+            {"name", name},
+            {"setting", name.size() < first.id.size() ? first.id.substr(name.size() + 1) : ""},
+            {"title", first.title}};
+        row["status"] = errors.empty() ? "failed" : "ok";
+        if (errors.empty()) row["why"] = first.why;
+        row["values"]["cases"] = errors.size();
+        if (!errors.empty()) {
+            row["values"]["systematic"] = 100 * root_mean_square(errors);
+            row["values"]["worst"] = 100 * *std::ranges::max_element(errors);
+            row["values"]["flip"] = median(values(cells, &SuiteCell::flip));
+            row["values"]["frame"] = median(values(cells, &SuiteCell::frame));
+            row["values"]["precompute"] = median(values(cells, &SuiteCell::precompute));
+            row["values"]["memory"] = median(values(cells, &SuiteCell::memory_mb));
+        }
+        row["values"]["changes"] = first.may_change;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+ordered_json summary_columns() {
+    const auto column = [](const char* key, const char* title, const char* unit, int digits,
+                           const char* better, const char* help) {
+        return ordered_json{{"key", key},       {"title", title},   {"unit", unit},
+                            {"digits", digits}, {"better", better}, {"help", help}};
+    };
+    ordered_json changes =
+        column("changes", "may change", "", 0, "none", "before anything is computed anew");
+    changes["text"] = true;
+    return {
+        column("cases", "cases", "", 0, "none", "that have numbers"),
+        column("systematic", "systematic error", "%", 1, "low", "root mean square over the cases"),
+        column("worst", "worst case", "%", 1, "low", "the largest systematic error of a case"),
+        column("flip", "HDR-FLIP", "", 3, "low", "median over the cases"),
+        column("frame", "frame", "s", 2, "low", "median over the cases"),
+        column("precompute", "before", "s", 2, "low", "precomputation, median over the cases"),
+        column("memory", "memory", "MB", 0, "low", "median over the cases"),
+        changes};
+}
+
+ordered_json printed() {
+    ordered_json rows = ordered_json::array();
+    for (const PrintedNumber& n : printed_numbers())
+        rows.push_back({std::string(n.technique), std::string(n.object),
+                        std::string(n.precomputation), std::string(n.speed),
+                        std::string(n.hardware), std::string(n.may_change)});
+    return {
+        {"title", "What the papers printed"},
+        {"text",
+         "The authors' own numbers, on their objects and machines. They tell what was thought "
+         "fast in which year; they cannot be compared with what was measured above."},
+        {"columns", {"Technique", "Object", "Precomputation", "Speed", "Hardware", "May change"}},
+        {"rows", rows}};
+}
+
+}  // namespace
+
+SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
+    SuiteResult r;
+    r.which = which;
+    r.picture = shrunk(e.reference.picture, thumbnail_side);
+    r.reference_samples = e.reference.samples;
+    r.reference_error = e.reference.error;
+    r.reference_cpu_seconds = e.reference.cpu_seconds;
+    for (const ExperimentRow& row : e.rows) {
+        const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
+        SuiteCell cell{.id = row.measurement.id,
+                       .title = std::string(technique.title),
+                       .why = row.measurement.why,
+                       .may_change = std::string(technique.may_change)};
+        if (row.verdict) {
+            cell.systematic = row.verdict->systematic.value;
+            cell.sigma = row.verdict->systematic.sigma;
+            cell.bias = row.verdict->bias.value;
+            cell.flip = row.verdict->flip;
+            cell.frame = row.measurement.median_of(&Timing::frame);
+            cell.precompute = row.measurement.median_of(&Timing::precompute);
+            cell.memory_mb = row.measurement.memory_mb;
+        } else if (cell.why.empty()) {
+            cell.why = "not run";
+        }
+        r.cells.push_back(std::move(cell));
+    }
+    return r;
+}
+
+ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, int width,
+                            int height, const ExperimentOptions& o, const ReportOrigin& origin) {
+    ordered_json d{{"format", 1}, {"kind", "suite"}, {"title", origin.title}};
+    double cpu = 0, worst = 0;
+    for (const SuiteResult& r : results) {
+        cpu += r.reference_cpu_seconds;
+        worst = std::max(worst, r.reference_error);
+    }
+    d["facts"] = {
+        {"Cases", fmt::format("{} of {}, {} x {} pixels, {} samples a pixel", results.size(), cases,
+                              width, height, o.settings.empty() ? 0 : o.settings.front().samples)},
+        {"References", fmt::format("complete simulation, noise at most {:.2g} % (RMS of "
+                                   "blocks of {} x {} pixels), {:.0f} CPU s in all",
+                                   100 * worst, o.block, o.block, cpu)},
+        {"Repeats", fmt::format("{} of each, seed {}", o.repeats, o.seed)}};
+    for (auto& fact : common_facts(origin.version, o.threads)) d["facts"].push_back(fact);
+    d["command"] = origin.command;
+    d["warnings"] = ordered_json::array();
+    if (int(results.size()) < cases)
+        d["warnings"].push_back(
+            "The suite was interrupted: cases without numbers were not run. The same command goes "
+            "on where it stopped.");
+    d["notes"] = {
+        {{"title", "The cases"},
+         {"text",
+          "Five objects in a sphere of 60 mm: a ball of 50 mm (thick), a waved sheet of 2 mm "
+          "(thin), a bowl (concave), the built-in bust (curved) and a slab of 9 mm (flat). High "
+          "albedo is the measured marble; low albedo has reduced albedos of 0.91, 0.80 and 0.67. "
+          "One lamp in front, at the side or behind, in dim surroundings.\n\nVeined matter changes "
+          "its density by 1:10. Only complete simulation takes it as it is; the other techniques "
+          "are given matter of its mean density, and the error is that of doing so."}},
+        {{"title", "How to read the errors"},
+         {"text",
+          "Systematic error: root mean square of the relative errors of blocks of pixels on the "
+          "object, the noise of the picture and of the reference taken off. Values below the noise "
+          "of the reference say no more than that."}}};
+    d["columns"] = summary_columns();
+    d["rows"] = summary_rows(results);
+    d["plot"] = {{"x", {"frame", "precompute"}}, {"y", {"systematic", "worst", "flip"}}};
+    d["matrix"] = matrix(results);
+    d["printed"] = printed();
+    d["pictures"] = ordered_json::object();
+    for (const SuiteResult& r : results) d["pictures"][r.which.id()] = rgbe_picture(r.picture);
+    return d;
+}
+
+}  // namespace nacre

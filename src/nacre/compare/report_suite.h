@@ -1,0 +1,31 @@
+#pragma once
+// The report of the suite: a matrix of cases and techniques.
+#include "nacre/compare/report_experiment.h"
+#include "nacre/compare/suite.h"
+
+namespace nacre {
+
+/// What stays of an experiment on one case; pictures do not.
+struct SuiteCell {
+    std::string id, title;                                 ///< of the setting
+    std::string why;                                       ///< it has no numbers
+    double systematic = 0, sigma = 0, bias = 0, flip = 0;  ///< shares
+    double frame = 0, precompute = 0;                      ///< s
+    double memory_mb = 0;
+    std::string may_change;
+};
+struct SuiteResult {
+    SuiteCase which;
+    std::vector<SuiteCell> cells;
+    Image picture;  ///< the reference, small
+    int reference_samples = 0;
+    double reference_error = 0, reference_cpu_seconds = 0;
+};
+
+SuiteResult summarise(const SuiteCase& which, const Experiment& e);
+
+nlohmann::ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, int width,
+                                      int height, const ExperimentOptions& options,
+                                      const ReportOrigin& origin);
+
+}  // namespace nacre
