@@ -60,12 +60,13 @@ NodePtr camera(int width, int height) {
     return camera;
 }
 
-/// A shining ball five radii away; a white surface that faces it shines with `white`.
+/// A shining ball seven radii away, as large as a cloudy sky's bright part, for soft shadows; a
+/// white surface that faces it shines with `white`.
 NodePtr light(const std::string& where) {
     const Vec3d from = where == "front"  ? direction(-30, 35)
                        : where == "side" ? direction(-95, 25)
                                          : direction(165, 30);
-    const double white = where == "back" ? 3 : 1, size = 0.8 * radius, distance = 5 * radius;
+    const double white = where == "back" ? 3 : 1, size = 3 * radius, distance = 7 * radius;
     auto emitter = make_node("emitter", "area");
     const double radiance = white * (distance / size) * (distance / size);
     set_rgb(emitter, "radiance", grey(radiance));
@@ -77,9 +78,11 @@ NodePtr light(const std::string& where) {
 }
 
 NodePtr object(const SuiteCase& which) {
-    auto boundary = make_node("bsdf", "dielectric");
-    set(boundary, "int_ior", "float", 1.5);
-    set(boundary, "ext_ior", "float", 1.0);
+    auto boundary = make_node("bsdf", which.matter == "veined" ? "null" : "dielectric");
+    if (which.matter != "veined") {
+        set(boundary, "int_ior", "float", 1.5);
+        set(boundary, "ext_ior", "float", 1.0);
+    }
     auto medium = make_node("medium", "homogeneous");
     if (which.albedo == "high") {
         set_rgb(medium, "sigma_s", {2.19f, 2.62f, 3.00f});
@@ -116,14 +119,14 @@ float noise(Vec3f p) {
     return plane(0) * (1 - tz) + plane(1) * tz;
 }
 
-/// Relative density, 1 in the ground and `thin` in the veins, which are 2 to 4 mm wide: where a
+/// Relative density, `ground` and a tenth of it in the veins, which are 2 to 4 mm wide: where a
 /// warped wave passes through 0.
-constexpr float thin = 0.1f;
+constexpr float thin = 0.1f, ground = 0.25f;
 float density(const Vec3f& p) {
     const float warp = 2.2f * noise(p * 0.09f) + 0.9f * noise(p * 0.22f);
     const float wave = std::abs(std::sin(0.16f * (p.x + 0.6f * p.y - 0.4f * p.z) + warp));
     const float t = std::clamp((wave - 0.12f) / 0.25f, 0.f, 1.f);
-    return thin + (1.f - thin) * t * t * (3.f - 2.f * t);
+    return ground * (thin + (1.f - thin) * t * t * (3.f - 2.f * t));
 }
 
 std::shared_ptr<VoxelGrid> veins() {
