@@ -21,23 +21,6 @@ Image picture_of(const Film& film) {
     return image;
 }
 
-/// Mean of the frames, and the variance of that mean.
-void set_moments(Measurement& m, const std::vector<Image>& frames) {
-    m.mean = Image(frames[0].width, frames[0].height);
-    m.variance = m.mean;
-    const double n = double(frames.size());
-    for (std::size_t i = 0; i < m.mean.data.size(); ++i) {
-        double sum = 0, squares = 0;
-        for (const Image& f : frames) sum += f.data[i];
-        for (const Image& f : frames) {
-            const double d = f.data[i] - sum / n;
-            squares += d * d;
-        }
-        m.mean.data[i] = float(sum / n);
-        m.variance.data[i] = float(squares / (n - 1) / n);
-    }
-}
-
 void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
                   const MeasurementOptions& options) {
     const WithSetting as_setting(scene, setting.choice);
@@ -64,8 +47,7 @@ void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
         if (repeat == 0) m.statistics = r.statistics;
     }
     m.memory_mb = memory.mb();
-    m.frame = frames[0];
-    set_moments(m, frames);
+    set_pictures(m, frames);
     m.status = Measurement::Status::done;
 }
 
@@ -78,6 +60,23 @@ double Measurement::median_of(double Timing::*what) const {
     std::ranges::sort(values);
     const std::size_t n = values.size();
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+void set_pictures(Measurement& m, const std::vector<Image>& frames) {
+    m.frame = frames[0];
+    m.mean = Image(frames[0].width, frames[0].height);
+    m.variance = m.mean;
+    const double n = double(frames.size());
+    for (std::size_t i = 0; i < m.mean.data.size(); ++i) {
+        double sum = 0, squares = 0;
+        for (const Image& f : frames) sum += f.data[i];
+        for (const Image& f : frames) {
+            const double d = f.data[i] - sum / n;
+            squares += d * d;
+        }
+        m.mean.data[i] = float(sum / n);
+        m.variance.data[i] = float(squares / (n - 1) / n);
+    }
 }
 
 Measurement measure(Scene& scene, const TechniqueSetting& setting,

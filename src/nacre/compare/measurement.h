@@ -36,6 +36,9 @@ struct Measurement {
     double median_of(double Timing::*what) const;
 };
 
+/// Sets `frame`, `mean` and `variance` from the frames, at least two of one size.
+void set_pictures(Measurement& m, const std::vector<Image>& frames);
+
 struct MeasurementOptions {
     int repeats = 3;  ///< at least 2: how they differ tells noise from bias
     std::uint64_t seed = 0;

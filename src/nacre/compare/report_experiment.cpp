@@ -233,9 +233,8 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
     }
     d["reference"] = {{"title", std::string(find_technique(o.reference.technique.technique).title)},
                       {"picture", "reference"},
-                      {"about",
-                       ordered_json::array({ordered_json::array(
-                           {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};
+                      {"about", ordered_json::array({ordered_json::array(
+                                    {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};
     d["plot"] = {{"x", {"total", "frame", "cpu"}}, {"y", {"rms", "systematic", "flip"}}};
     const Image& reference = e.reference.picture;
     const double scale =

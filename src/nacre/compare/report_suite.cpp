@@ -189,9 +189,8 @@ ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, 
     const auto fact = [&](const char* name, const std::string& text) {
         d["facts"].push_back(ordered_json::array({name, text}));
     };
-    fact("Cases",
-         fmt::format("{} of {}, {} x {} pixels, {} samples a pixel", results.size(), cases, width,
-                     height, o.settings.empty() ? 0 : o.settings.front().samples));
+    fact("Cases", fmt::format("{} of {}, {} x {} pixels, {} samples a pixel", results.size(), cases,
+                              width, height, o.settings.empty() ? 0 : o.settings.front().samples));
     fact("References", fmt::format("complete simulation, noise at most {:.2g} % (RMS of blocks of "
                                    "{} x {} pixels), {:.0f} CPU s in all",
                                    100 * worst, o.block, o.block, cpu));
@@ -210,7 +209,8 @@ ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, 
           "(thin), a bowl (concave), the built-in bust (curved) and a slab of 9 mm (flat). High "
           "albedo is the measured marble; low albedo has reduced albedos of 0.91, 0.80 and 0.67. "
           "One lamp in front, at the side or behind, in dim surroundings.\n\nVeined matter is a "
-          "quarter as dense, changes its density by 1:10 and has no refracting boundary. Only complete simulation takes it as it is; the other techniques "
+          "quarter as dense, changes its density by 1:10 and has no refracting boundary. Only "
+          "complete simulation takes it as it is; the other techniques "
           "are given matter of its mean density, and the error is that of doing so."}},
         {{"title", "How to read the errors"},
          {"text",

@@ -32,10 +32,10 @@ std::vector<SuiteCase> suite_cases(std::string_view filter = "");
 ///
 /// The matter scatters isotropically: `high` is the measured marble (Jensen et al. 2001), `low` has
 /// reduced albedos of 0.91, 0.80 and 0.67. Homogeneous matter has a smooth boundary of index 1.5.
-/// Veined matter is a quarter as dense, its density changes by 1:10 between veins and ground, and it
-/// has no boundary: lamps are not sampled through refracting boundaries of matter that is not the
-/// same everywhere, and the reference would take hours. `even` replaces it by matter of its mean density, which is what a
-/// technique for homogeneous matter can take for it.
+/// Veined matter is a quarter as dense, its density changes by 1:10 between veins and ground, and
+/// it has no boundary: lamps are not sampled through refracting boundaries of matter that is not
+/// the same everywhere, and the reference would take hours. `even` replaces it by matter of its
+/// mean density, which is what a technique for homogeneous matter can take for it.
 Scene make_suite_scene(const SuiteCase& which, int width, int height, bool even = false);
 
 }  // namespace nacre
