@@ -107,8 +107,10 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
     app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is");
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
+    std::vector<std::string_view> names;
+    for (const TechniqueDescription& t : techniques()) names.push_back(t.name);
     app.add_option("--technique", o->technique,
-                   "how translucent shapes are rendered: brdf, surface, two_pass, volpath");
+                   fmt::format("how translucent shapes are rendered: {}", fmt::join(names, ", ")));
     app.add_option("--profile", o->profile,
                    "diffusion profile of the technique (dipole); see 'nacre models'");
     app.add_option("--set", o->set, "name=value: an option of the technique")

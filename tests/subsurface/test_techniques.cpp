@@ -4,53 +4,9 @@
 #include "nacre/bssrdf/single_scattering.h"
 #include "nacre/render/single_scattering.h"
 #include "nacre/subsurface/technique.h"
-#include "tests/render/render_fixture.h"
+#include "tests/subsurface/technique_fixture.h"
 
 namespace nacre {
-namespace {
-
-constexpr double eta = 1.3;
-const std::string coefficients =
-    xml::rgb("sigma_s", {1., 0.7, 2.}) + xml::rgb("sigma_a", {0.1, 0.2, 0.15});
-
-/// A box from z = -thickness to 0 that is 60 mm wide.
-std::string slab(double thickness, const std::string& inside) {
-    return xml::shape("cube",
-                      fmt::format("<transform name=\"to_world\"><scale x=\"30\" y=\"30\" z=\"{}\"/>"
-                                  "<translate z=\"{}\"/></transform>",
-                                  0.5 * thickness, -0.5 * thickness) +
-                          xml::flag("face_normals", true) + inside);
-}
-std::string subsurface(const std::string& profile, const std::string& options) {
-    return "<subsurface type=\"" + profile + "\">" + coefficients + xml::number("int_ior", eta) +
-           xml::number("ext_ior", 1) + options + "</subsurface>";
-}
-std::string word(const std::string& name, const std::string& value) {
-    return "<string name=\"" + name + "\" value=\"" + value + "\"/>";
-}
-
-/// Rays onto the middle of the slab from `direction`.
-RayMaker onto_the_middle(const Vec3f& from, float half) {
-    return [=](Vec2f u) {
-        const Vec3f d = normalize(from);
-        const Point3f p{half * (2.f * u.x - 1.f), half * (2.f * u.y - 1.f), 0.f};
-        return Ray{p + d * 50.f, -d};
-    };
-}
-
-ProfileMedium medium(int c) {
-    const double s[] = {1., 0.7, 2.}, a[] = {0.1, 0.2, 0.15};
-    return {s[c], a[c], 0., eta};
-}
-
-class Techniques : public RenderTest {
-  protected:
-    RadianceEstimate look(const Scene& s, const RayMaker& rays, EstimateOptions options = {}) {
-        return estimate(s, *make_technique_integrator(s), rays, options);
-    }
-};
-
-}  // namespace
 
 TEST_F(Techniques, AFlatObjectInEvenLightReturnsTheProfilesTotal) {
     const double f = fresnel_dielectric(1., eta);
@@ -184,7 +140,7 @@ TEST_F(Techniques, SingleScatteringOfAFlatObjectIsHanrahanAndKruegers) {
 TEST_F(Techniques, WavelengthsAndBandsAgreeWhereTheMediumIsGrey) {
     const std::string grey = xml::number("sigma_s", 1) + xml::number("sigma_a", 0.1) +
                              xml::number("int_ior", 1.3) + xml::number("ext_ior", 1);
-    for (const char* technique : {"surface", "two_pass"}) {
+    for (const char* technique : {"hanrahan_krueger", "surface", "random_walk", "two_pass"}) {
         const std::string body =
             xml::integrator("path") + xml::constant_light() +
             slab(30, "<subsurface type=\"dipole\">" + grey + word("method", technique) +
@@ -234,6 +190,34 @@ TEST_F(Techniques, ChooseByName) {
     }
 }
 
+TEST_F(Techniques, VariantsAreChoices) {
+    const std::string body = xml::integrator("volpath") + xml::constant_light() +
+                             slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients));
+    for (const TechniqueDescription& t : techniques()) {
+        const std::vector<TechniqueChoice> variants = variants_of(t);
+        EXPECT_EQ(variants.size(), 1 + std::ranges::count(t.variants, '|')) << t.name;
+        for (const TechniqueChoice& v : variants) {
+            Scene s = scene(body);
+            EXPECT_EQ(v.technique, t.name);
+            EXPECT_NO_THROW(choose_technique(s, v)) << t.name;
+            EXPECT_NO_THROW(make_technique_integrator(s)) << t.name << v.profile;
+            if (!t.make || v.profile.empty()) continue;
+            EXPECT_EQ(s.shapes[0].subsurface->profile, v.profile);
+        }
+    }
+    TechniqueDescription some = find_technique("surface");
+    some.variants = "a=1 profile=x b=c|profile=y";
+    const std::vector<TechniqueChoice> variants = variants_of(some);
+    ASSERT_EQ(variants.size(), 2u);
+    EXPECT_EQ(variants[0].profile, "x");
+    const std::vector<std::pair<std::string, std::string>> options{{"a", "1"}, {"b", "c"}};
+    EXPECT_EQ(variants[0].options, options);
+    EXPECT_EQ(variants[1].profile, "y");
+    EXPECT_TRUE(variants[1].options.empty());
+    // Two passes by three sizes of groups.
+    EXPECT_EQ(variants_of(find_technique("two_pass"))[2].options[0].second, "0.05");
+}
+
 TEST_F(Techniques, SayWhatTheyCannotDo) {
     const auto message = [&](const std::string& profile, const std::string& options) {
         return error_of([&] {
@@ -250,7 +234,7 @@ TEST_F(Techniques, SayWhatTheyCannotDo) {
     };
     starts(message("dipole", word("method", "two_passes")),
            "unknown technique \"two_passes\": did you mean \"two_pass\"? known are volpath, brdf, "
-           "surface, two_pass");
+           "hanrahan_krueger, surface, random_walk, two_pass");
     starts(message("dipol", word("method", "surface")),
            "unknown diffusion profile \"dipol\": did you mean \"dipole\"?");
     starts(message("normalised_diffusion", word("method", "two_pass")),

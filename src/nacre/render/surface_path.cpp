@@ -70,7 +70,7 @@ bool SurfacePath::at_translucent(const SurfacePoint& at, const Translucency& bel
     result_ += throughput_ * e.radiance;
     if (!e.entry || !(max_lane(e.weight) > 0.f)) return false;
     throughput_ *= e.weight;
-    return scatter(*e.entry, below.entry(), {0.f, 0.f, 1.f});
+    return scatter(*e.entry, below.entry(), wo);
 }
 
 bool SurfacePath::reflect(const SurfacePoint& at, const Vec3f& wo) {

@@ -4,16 +4,6 @@
 
 namespace nacre {
 
-namespace {
-
-// Where interpolated normals lean over the edge of the surface, directions above them may lead
-// inside.
-bool is_outside(const SurfacePoint& at, const Vec3f& wi) {
-    return wi.z > 0.f && dot(at.shading.to_world(wi), at.ng) > 0.f;
-}
-
-}  // namespace
-
 Spectral EntryLobe::eval(const SurfacePoint& at, const Vec3f&, const Vec3f& wi,
                          const Wavelengths&) const {
     if (!is_outside(at, wi)) return Spectral(0.f);

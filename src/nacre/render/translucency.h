@@ -22,6 +22,12 @@ class EntryLobe final : public Material {
     /// `eta`: index inside over outside; 1 if there is no boundary.
     explicit EntryLobe(float eta) : eta_(eta) {}
 
+    /// Whether light can fall onto the surface from `wi` (local): where interpolated normals lean
+    /// over its edge, directions above them may lead inside.
+    static bool is_outside(const SurfacePoint& at, const Vec3f& wi) {
+        return wi.z > 0.f && dot(at.shading.to_world(wi), at.ng) > 0.f;
+    }
+
     unsigned flags() const override { return reflects | has_smooth; }
     Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
                   const Wavelengths&) const override;
@@ -43,7 +49,7 @@ class Translucency {
     struct Emergence {
         Spectral radiance{0.f};             ///< that is known already
         std::optional<SurfacePoint> entry;  ///< a place where the rest came in
-        Spectral weight{0.f};               ///< of what `EntryLobe` there sends on
+        Spectral weight{0.f};               ///< of what `entry` there sends on
     };
     /// One-sample estimate of the radiance that emerges at `exit` towards `wo` (local, z > 0), over
     /// the boundary's transmittance in that direction.
@@ -51,7 +57,10 @@ class Translucency {
                              const Wavelengths& wavelengths, RayCounts& counts) const = 0;
 
     float eta() const { return eta_; }
-    const EntryLobe& entry() const { return entry_; }
+    /// What a path goes on from at an entry: a "reflector" towards the `wo` of `emerge`, without
+    /// the boundary's transmittance in that direction. Where light enters elsewhere than it leaves,
+    /// `wo` means nothing there and the lobe must not look at it.
+    virtual const Material& entry() const { return entry_; }
 
   private:
     float eta_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "nacre/bssrdf/exit_fresnel.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/names.h"
@@ -30,7 +32,22 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "",
      .may_change = "view, light, material, geometry",
      .profiles = "all",
+     .variants = "profile=dipole",
      .make = make_local_reflection},
+    {.name = "hanrahan_krueger",
+     .title = "local reflection with single scattering",
+     .authors = "P. Hanrahan, W. Krueger",
+     .year = 1993,
+     .paper = "Reflection from Layered Surfaces due to Subsurface Scattering, SIGGRAPH 93; with "
+              "what a diffusion profile holds of higher orders",
+     .how = "all light leaves where it came in: the first order of a half space in closed form, "
+            "higher orders as Lambert's law with the profile's total, less the first order where "
+            "the profile includes it",
+     .precomputes = "",
+     .may_change = "view, light, material, geometry",
+     .profiles = "all",
+     .variants = "profile=dipole|profile=better_dipole",
+     .make = make_hanrahan_krueger},
     {.name = "surface",
      .title = "BSSRDF by surface sampling",
      .authors = "H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan; A. King, C. Kulla, A. Conty, "
@@ -43,8 +60,20 @@ constexpr TechniqueDescription catalogue[] = {
      .may_change = "view, light, geometry",
      .profiles = "all",
      .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
-                 "profile=photon_beam_diffusion|profile=normalised_diffusion",
+                 "profile=photon_beam_diffusion|profile=normalised_diffusion|"
+                 "profile=gaussian_sum|profile=multipole",
      .make = make_surface_sampling},
+    {.name = "random_walk",
+     .title = "random walk from surface albedo",
+     .authors = "M. J.-Y. Chiang, P. Kutz, B. Burley",
+     .year = 2016,
+     .paper = "Practical and Controllable Subsurface Scattering for Production Path Tracing, "
+              "SIGGRAPH 2016 Talks",
+     .how = "a walk without refraction, isotropic and of diffuse entry and exit, in the medium "
+            "whose half space would return the same share of the light, by their fit",
+     .precomputes = "that share, by adding and doubling",
+     .may_change = "view, light, geometry",
+     .make = make_random_walk},
     {.name = "two_pass",
      .title = "two-pass hierarchy",
      .authors = "H. W. Jensen, J. Buhler",
@@ -181,26 +210,22 @@ const TechniqueDescription& find_technique(std::string_view name) {
 }
 
 std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique) {
-    std::vector<TechniqueChoice> variants(1, {std::string(technique.name)});
-    std::string word;
-    const auto end_word = [&] {
-        const std::size_t equals = word.find('=');
-        if (equals != word.npos) {
-            const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+    std::vector<TechniqueChoice> result;
+    std::istringstream variants{std::string(technique.variants)};
+    for (std::string variant; std::getline(variants, variant, '|');) {
+        TechniqueChoice& choice = result.emplace_back(std::string(technique.name));
+        std::istringstream settings(variant);
+        for (std::string setting; settings >> setting;) {
+            const std::size_t equals = setting.find('=');
+            const std::string name = setting.substr(0, equals), value = setting.substr(equals + 1);
             if (name == "profile")
-                variants.back().profile = value;
+                choice.profile = value;
             else
-                variants.back().options.emplace_back(name, value);
+                choice.options.emplace_back(name, value);
         }
-        word.clear();
-    };
-    for (const char c : technique.variants) {
-        if (c != ' ' && c != '|') word += c;
-        if (c == ' ' || c == '|') end_word();
-        if (c == '|') variants.push_back({std::string(technique.name)});
     }
-    end_word();
-    return variants;
+    if (result.empty()) result.push_back({std::string(technique.name)});
+    return result;
 }
 
 void choose_technique(Scene& scene, const TechniqueChoice& choice) {

@@ -37,8 +37,9 @@ struct TechniqueDescription {
     std::string_view precomputes;  ///< before the first picture; empty if nothing
     std::string_view may_change;  ///< without computing that again: view, light, material, geometry
     std::string_view profiles = "";  ///< that it takes; empty if it needs none
-    /// Settings at which a comparison runs the technique: "profile=dipole error=0.2", several
-    /// separated by '|'; empty: the defaults.
+    /// The settings at which comparisons run it, separated by '|', each "name=value name=value" of
+    /// options, where "profile" is the profile; all else is as by default. Empty: the defaults
+    /// alone.
     std::string_view variants = "";
     TranslucencyPtr (*make)(const TechniqueInput&) = nullptr;  ///< null: complete simulation
 };
@@ -53,7 +54,7 @@ struct TechniqueChoice {
     std::string profile = {};  ///< empty: as the scene says, or the dipole
     std::vector<std::pair<std::string, std::string>> options = {};  ///< as of set_option
 };
-/// What `variants` of a technique says, at least one.
+/// The description's variants, one at least.
 std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique);
 /// Has the scene rendered by a technique: complete simulation by volpath, any other by path with
 /// that technique in all translucent shapes. Throws InputError for unknown names and values, and if
@@ -72,7 +73,9 @@ std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const Technique
 
 // The techniques' makers.
 TranslucencyPtr make_local_reflection(const TechniqueInput& input);
+TranslucencyPtr make_hanrahan_krueger(const TechniqueInput& input);
 TranslucencyPtr make_surface_sampling(const TechniqueInput& input);
+TranslucencyPtr make_random_walk(const TechniqueInput& input);
 TranslucencyPtr make_two_pass(const TechniqueInput& input);
 
 }  // namespace nacre

@@ -1,0 +1,98 @@
+#include "nacre/subsurface/local_scattering.h"
+
+#include <limits>
+
+#include "nacre/math/quadrature.h"
+#include "nacre/math/sampling.h"
+#include "nacre/optics/fresnel_moments.h"
+#include "nacre/subsurface/technique.h"
+
+namespace nacre {
+
+double single_scattering_share(double g, double eta) {
+    const HanrahanKruegerStack half_space({{{.sigma_s = 1.,
+                                             .g = g,
+                                             .thickness = std::numeric_limits<double>::infinity(),
+                                             .eta = eta}},
+                                           1.,
+                                           eta});
+    const double flux = GaussLegendre(32).integrate(0., 1., [&](double cosine) {
+        const LayerTotals t = half_space.totals(cosine);
+        return 2. * cosine * (t.reflectance - t.specular);
+    });
+    return flux / (1. - diffuse_reflectance_external(eta));
+}
+
+LocalScatteringLobe::LocalScatteringLobe(const Medium& medium,
+                                         std::shared_ptr<const ProfileTables> profile, float eta,
+                                         float scale, Orders orders)
+    : medium_(medium),
+      profile_(std::move(profile)),
+      entry_(eta),
+      eta_(eta),
+      scale_(scale),
+      share_(float(single_scattering_share(medium.phase.mean_cosine(), eta))),
+      orders_(orders) {}
+
+LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) const {
+    const MediumCoefficients c = medium_.coefficients({}, w);
+    const Spectral none(0.f);
+    const Spectral albedo =
+        orders_.single
+            ? select(c.sigma_t > none, c.sigma_s / max(c.sigma_t, Spectral(1e-30f)), none)
+            : none;
+    const Spectral once = albedo * Spectral(share_);
+    Spectral rest = profile_->total(w);
+    if (orders_.subtracted) rest = max(none, rest - once);
+    rest *= Spectral(scale_);
+    // Lambert's law serves both terms, and where the phase function leads below the surface it
+    // alone does.
+    const float diffuse = mean(rest, w), peaked = mean(once, w);
+    const float by_cosine = peaked > 0.f ? std::max(0.5f, diffuse / (diffuse + peaked)) : 1.f;
+    return {{albedo, Spectral(std::numeric_limits<float>::infinity()), medium_.phase, eta_},
+            rest,
+            by_cosine};
+}
+
+Spectral LocalScatteringLobe::eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
+                                   const Wavelengths& w) const {
+    if (!EntryLobe::is_outside(at, wi)) return Spectral(0.f);
+    const Terms t = terms(w);
+    Spectral f = t.rest * entry_.eval(at, wo, wi, w);
+    const float leaves = 1.f - t.once.specular(wo.z);
+    if (leaves > 0.f) f += t.once.eval(wi, wo) * Spectral(wi.z / leaves);
+    return f;
+}
+
+float LocalScatteringLobe::pdf(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
+                               const Wavelengths& w) const {
+    if (!(wi.z > 0.f)) return 0.f;
+    const Terms t = terms(w);
+    return t.by_cosine * cosine_hemisphere_pdf(wi.z) + (1.f - t.by_cosine) * t.once.pdf(wi, wo);
+}
+
+std::optional<MaterialSample> LocalScatteringLobe::sample(const SurfacePoint& at, const Vec3f& wo,
+                                                          float u1, Vec2f u2,
+                                                          const Wavelengths& w) const {
+    const Terms t = terms(w);
+    MaterialSample s;
+    s.wi = u1 < t.by_cosine ? square_to_cosine_hemisphere(u2) : t.once.sample(wo, u2);
+    s.pdf = pdf(at, wo, s.wi, w);
+    if (!(s.pdf > 0.f) || !EntryLobe::is_outside(at, s.wi)) return std::nullopt;
+    s.weight = eval(at, wo, s.wi, w) * Spectral(1.f / s.pdf);
+    return s;
+}
+
+TranslucencyPtr make_hanrahan_krueger(const TechniqueInput& in) {
+    const Medium& medium = *in.scene.shapes[in.shape].interior;
+    auto profile = std::make_shared<const ProfileTables>(medium, in.eta, in.settings.profile,
+                                                         Bands(in.scene.mode));
+    const std::string& choice = in.settings.single_scattering;
+    const LocalScatteringLobe::Orders orders{
+        .single = choice != "off",
+        .subtracted = choice == "auto" && profile->includes_single_scattering()};
+    return std::make_shared<LocalScattering>(
+        in.eta, LocalScatteringLobe(medium, std::move(profile), in.eta, in.exit_scale, orders));
+}
+
+}  // namespace nacre

@@ -1,0 +1,146 @@
+#include "nacre/subsurface/random_walk.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "nacre/layers/adding_doubling.h"
+#include "nacre/math/sampling.h"
+#include "nacre/optics/fresnel_moments.h"
+#include "nacre/render/profile_tables.h"
+#include "nacre/render/walk.h"
+#include "nacre/subsurface/technique.h"
+
+namespace nacre {
+
+namespace {
+
+// So many collisions are walked before the roulette is thought about.
+constexpr std::uint32_t walk_chunk = 64;
+// A free path meets at most so many surfaces of other shapes.
+constexpr int most_strangers = 64;
+
+}  // namespace
+
+double half_space_albedo(const ProfileMedium& m) {
+    const LayerStack half_space{{{.sigma_s = m.sigma_s,
+                                  .sigma_a = m.sigma_a,
+                                  .g = m.g,
+                                  .thickness = std::numeric_limits<double>::infinity(),
+                                  .eta = m.eta}},
+                                1.,
+                                m.eta};
+    const double cosine[] = {1.};
+    const LayerTotals t = adding_doubling(half_space, cosine).diffuse;
+    return std::clamp((t.reflectance - t.specular) / (1. - t.specular), 0., 1.);
+}
+
+RandomWalkMedium<double> random_walk_medium(const ProfileMedium& m) {
+    const double a = half_space_albedo(m);
+    return chiang2016_medium(a, 1. / (m.sigma_t_prime() * normalised_diffusion_scale(
+                                                              a, NormalisedDiffusionFit::diffuse)));
+}
+
+/// What a walk meets: the shape's own surface, and the end of the box around it.
+struct RandomWalk::Surroundings {
+    const RandomWalk& of;
+    RayCounts& counts;
+    Ray ray{};
+    std::optional<Hit> hit{};
+
+    struct Place {
+        float clearance;
+        bool outside;
+    };
+    Place locate(const Point3f& p) const {
+        const auto within = [](float x, float low, float high) { return x >= low && x <= high; };
+        const Box3f& b = of.bounds_;
+        return {0.f, !(within(p.x, b.lower.x, b.upper.x) && within(p.y, b.lower.y, b.upper.y) &&
+                       within(p.z, b.lower.z, b.upper.z))};
+    }
+    bool surface(const Point3f& p, const Vec3f& d, float s, float& t) {
+        ray = {p, d, 0.f, s};
+        for (int i = 0; i < most_strangers; ++i) {
+            ++counts.rays;
+            hit = of.scene_.rays.intersect(ray);
+            if (!hit || hit->shape == of.shape_) break;
+            ray.tmin = hit->t * (1.f + 1e-6f);
+        }
+        if (hit) t = hit->t;
+        return hit.has_value();
+    }
+    void collided(const Walker&, const Place&) const {}
+};
+
+RandomWalk::RandomWalk(const Scene& scene, std::uint32_t shape, float eta, const Bands& bands,
+                       std::span<const RandomWalkMedium<double>> media, float exit_scale)
+    : Translucency(eta),
+      scene_(scene),
+      shape_(shape),
+      bands_(bands),
+      exit_scale_(exit_scale),
+      bounds_(scene.rays.bounds(shape)) {
+    for (const RandomWalkMedium<double>& m : media) {
+        sigma_t_.push_back(float(m.sigma_t));
+        sigma_s_.push_back(float(m.sigma_s));
+    }
+    // Rounding may put a collision beside a flat object's box.
+    const Vec3f margin = bounds_.diagonal() * 1e-4f;
+    bounds_.lower = bounds_.lower - margin;
+    bounds_.upper = bounds_.upper + margin;
+}
+
+MediumLanes RandomWalk::lanes(const Wavelengths& w, int lane) const {
+    return {{bands_.at(sigma_s_.data(), w), bands_.at(sigma_t_.data(), w)}, w, lane};
+}
+
+Translucency::Emergence RandomWalk::emerge(const SurfacePoint& exit, const Vec3f&, Sampler& sampler,
+                                           const Wavelengths& w, RayCounts& counts) const {
+    // Each walk of a path has its own lane: were it one for all, the weights of several would not
+    // multiply to that of the path.
+    float u = sampler.next1d();
+    int lane = 0;
+    while (lane < 3 && u >= w.weight[lane]) u -= w.weight[lane++];
+    const MediumLanes medium = lanes(w, lane);
+    const Vec3f d =
+        -Framef::around(exit.ng).to_world(square_to_cosine_hemisphere(sampler.next2d()));
+
+    Surroundings surroundings{*this, counts};
+    Walker walker{exit.spawn(d), d, d, sampler.random()};
+    float gain = 1.f;  // of the roulette
+    WalkEnd end;
+    Spectral weight;
+    for (std::uint32_t limit = walk_chunk;; limit += walk_chunk) {
+        end = walk(walker, medium.hero_sigma, PhaseFunction::isotropic(), limit, surroundings);
+        Spectral density = medium.walk_density(walker.collisions, walker.length);
+        if (end == WalkEnd::surface) density *= medium.transmittance(walker.free_path);
+        weight = medium.survival(walker.collisions) * density * Spectral(gain / mean(density, w));
+        if (end != WalkEnd::paused) break;
+        const float chance = std::min(1.f, max_lane(weight));
+        if (!(walker.random.next() < chance)) break;
+        gain /= chance;
+        walker.d_in = walker.d;
+        walker.d = fast_uniform_sphere(walker.random.next2());
+    }
+    sampler.random() = walker.random;
+    counts.scatterings += walker.collisions;
+    if (end != WalkEnd::surface) return {};
+    const SurfacePoint entry = scene_.rays.surface_point(surroundings.ray, *surroundings.hit);
+    if (!(dot(walker.d, entry.ng) > 0.f)) return {};  // came back through a hole
+    return {Spectral(0.f), entry, weight * Spectral(exit_scale_)};
+}
+
+TranslucencyPtr make_random_walk(const TechniqueInput& in) {
+    const Bands bands(in.scene.mode);
+    const std::vector<ProfileMedium> media =
+        medium_in_bands(*in.scene.shapes[in.shape].interior, in.eta, bands);
+    for (const ProfileMedium& m : media) check(m);
+    std::vector<RandomWalkMedium<double>> walks(media.size());
+    tbb::parallel_for(std::size_t(0), media.size(),
+                      [&](std::size_t i) { walks[i] = random_walk_medium(media[i]); });
+    return std::make_shared<RandomWalk>(in.scene, in.shape, in.eta, bands, walks, in.exit_scale);
+}
+
+}  // namespace nacre

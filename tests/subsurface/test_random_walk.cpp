@@ -1,0 +1,155 @@
+// Random walks in a medium of given surface albedo: half spaces in closed form, a sphere against
+// complete simulation.
+#include "nacre/subsurface/random_walk.h"
+
+#include "nacre/math/quadrature.h"
+#include "tests/subsurface/technique_fixture.h"
+
+namespace nacre {
+
+namespace {
+
+/// What a half space of isotropic albedo W below a boundary of equal indices returns of even light:
+/// 1 - 2 sqrt(1 - W) int H(mu) mu dmu, with Chandrasekhar's H (1950, Radiative Transfer) by
+///   ln H = -mu/pi int_0^(pi/2) ln(1 - W t cot t) / (cos^2 t + mu^2 sin^2 t) dt.
+double closed_form(double albedo) {
+    static const GaussLegendre rule(96);
+    const auto h = [&](double mu) {
+        // Towards t = 0 the logarithm of a nearly white medium falls steeply: t = x^4.
+        return std::exp(-mu / pi * rule.integrate(0., std::pow(0.5 * pi, 0.25), [&](double x) {
+            const double t = x * x * x * x, s = std::sin(t), c = std::cos(t);
+            return 4. * x * x * x * std::log(1. - albedo * t * c / s) / (c * c + mu * mu * s * s);
+        }));
+    };
+    return 1. - 2. * std::sqrt(1. - albedo) *
+                    rule.integrate(0., 1., [&](double mu) { return mu * h(mu); });
+}
+/// The single-scattering albedo whose half space returns `a`.
+double albedo_for(double a) {
+    double low = 0., high = 1.;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        (closed_form(middle) < a ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+std::string matter(const Vec3d& sigma_s, const Vec3d& sigma_a, double index,
+                   const std::string& more = "") {
+    return "<subsurface type=\"dipole\">" + xml::rgb("sigma_s", sigma_s) +
+           xml::rgb("sigma_a", sigma_a) + xml::number("int_ior", index) +
+           xml::number("ext_ior", 1) + word("method", "random_walk") + more + "</subsurface>";
+}
+
+const Vec3d targets{0.2, 0.5, 0.8};
+const Vec3d extinction{4., 9., 6.};
+
+}  // namespace
+
+TEST(RandomWalkMedium, HasTheSurfaceAlbedoOfTheObjectsHalfSpace) {
+    for (const double a : {0.05, 0.2, 0.5, 0.8, 0.95}) {
+        const double w = albedo_for(a);
+        EXPECT_NEAR(half_space_albedo({w, 1. - w, 0., 1.}), a, 2e-4) << a;
+        // Without a boundary the fit gives back the medium that one had: its accuracy.
+        const RandomWalkMedium<double> walk = random_walk_medium({3. * w, 3. * (1. - w), 0., 1.});
+        EXPECT_NEAR(walk.sigma_t, 3., 1e-12);
+        EXPECT_NEAR(closed_form(walk.sigma_s / walk.sigma_t), a,
+                    (a < 0.2   ? 0.04
+                     : a > 0.9 ? 0.06
+                               : 0.01) *
+                        a);
+    }
+    // Behind any boundary a white medium returns all light.
+    EXPECT_NEAR(half_space_albedo({1., 0., 0., 1.5}), 1., 1e-6);
+    EXPECT_NEAR(half_space_albedo({1., 0., 0.8, 1.3}), 1., 1e-6);
+    EXPECT_EQ(half_space_albedo({0., 1., 0., 1.3}), 0.);
+    // Its transport mean free path is the object's.
+    EXPECT_NEAR(random_walk_medium({10., 1., 0.8, 1.3}).sigma_t, 3., 1e-12);
+}
+
+TEST_F(Techniques, RandomWalksInAHalfSpaceReturnTheSurfaceAlbedo) {
+    // Bands of different colour and density at once, so that walks of one are weighted for others.
+    for (const double index : {1., 1.3}) {
+        Vec3d sigma_s, expected;
+        for (int c = 0; c < 3; ++c) sigma_s[c] = extinction[c] * albedo_for(targets[c]);
+        const double f = fresnel_dielectric(1., index);
+        for (int c = 0; c < 3; ++c) {
+            const RandomWalkMedium<double> walk =
+                random_walk_medium({sigma_s[c], extinction[c] - sigma_s[c], 0., index});
+            expected[c] = f + (1. - f) * closed_form(walk.sigma_s / walk.sigma_t);
+        }
+        const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                              slab(30, matter(sigma_s, extinction - sigma_s, index)));
+        expect_radiance(look(s, onto_the_middle({0, 0, 1}, 10), {.pixels = 1000, .samples = 64}),
+                        expected, 4e-3, fmt::format("index {}", index), 4.5);
+    }
+}
+
+TEST_F(Techniques, RandomWalksInAWhiteHalfSpaceLoseWhatTheFitDoes) {
+    // The fit ends at a single-scattering albedo of 0.99888: 7 % are lost.
+    const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                          slab(30, matter({40, 20, 30}, {}, 1.3)));
+    const double f = fresnel_dielectric(1., 1.3),
+                 expected = f + (1. - f) * closed_form(chiang2016_single_albedo(1.));
+    const RadianceEstimate e =
+        look(s, onto_the_middle({0, 0, 1}, 5), {.pixels = 1000, .samples = 64});
+    expect_radiance(e, {expected, expected, expected}, 4e-3, "white", 4.5);
+}
+
+TEST_F(Techniques, RandomWalksInASphereAreACompleteSimulationOfTheirMedium) {
+    // Without a boundary, in even light: what is simulated along parallel rays that fill the disk
+    // of the sphere is met at all angles in proportion to their cosine, which is how walks start.
+    // Where and how light enters makes no difference.
+    const Vec3d sigma_s{1., 0.7, 2.}, sigma_a{0.1, 0.2, 0.01};
+    Vec3d walk_s, walk_a;
+    for (int c = 0; c < 3; ++c) {
+        const auto walk = random_walk_medium({sigma_s[c], sigma_a[c], 0., 1.});
+        walk_s[c] = walk.sigma_s, walk_a[c] = walk.sigma_t - walk.sigma_s;
+    }
+    const RayMaker rays = ray_bundle({0, 0, 9}, {0, 0, -1}, 1.5f);
+    const EstimateOptions options{.pixels = 1000, .samples = 128};
+    const Scene walks = scene(xml::integrator("path") + xml::constant_light() +
+                              xml::sphere({}, 1.5, matter(sigma_s, sigma_a, 1.)));
+    const Scene whole = scene(
+        xml::integrator("volpath") + xml::constant_light() +
+        xml::sphere({}, 1.5,
+                    xml::bsdf("null") + xml::medium("interior", xml::rgb("sigma_s", walk_s) +
+                                                                    xml::rgb("sigma_a", walk_a))));
+    const RadianceEstimate a = look(walks, rays, options), b = look(whole, rays, options);
+    for (int c = 0; c < 3; ++c) EXPECT_LT(std::hypot(a.error[c], b.error[c]), 3e-3);
+    expect_agreement(a, b, sidak_deviations(3, 1e-4), "sphere");
+}
+
+TEST_F(Techniques, RandomWalksIgnoreOtherShapesInside) {
+    const auto with = [&](const std::string& more) {
+        const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                              xml::sphere({}, 1.5, matter({1, 2, 3}, {0.1, 0.1, 0.1}, 1.3)) + more);
+        return look(s, ray_bundle({0, 0, 9}, {0, 0, -1}, 1.5f), {.pixels = 400, .samples = 64});
+    };
+    const std::string black = xml::bsdf("diffuse", xml::rgb("reflectance", {0, 0, 0}));
+    expect_agreement(with(""),
+                     with(xml::sphere({0, 0, 0.5}, 0.8, black) + xml::sphere({}, 0.6, black)),
+                     sidak_deviations(3, 1e-4), "spheres inside");
+}
+
+TEST_F(Techniques, RandomWalksBearHoles) {
+    // A box without a bottom: what falls out of it is lost.
+    write("box.obj",
+          "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
+          "f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    const auto by = [&](const std::string& shape) {
+        const Scene s = scene(xml::integrator("path") + xml::constant_light() + shape);
+        return look(s, onto_the_middle({0, 0, 1}, 0.3f), {.pixels = 200, .samples = 64}).mean;
+    };
+    const std::string inside = matter({1, 1, 1}, {0.01, 0.01, 0.01}, 1.3);
+    const Vec3d open =
+        by(xml::shape("obj", "<string name=\"filename\" value=\"box.obj\"/>" + inside));
+    const Vec3d closed = by(xml::shape(
+        "cube",
+        "<transform name=\"to_world\"><scale z=\"0.5\"/><translate z=\"-0.5\"/></transform>" +
+            inside));
+    EXPECT_LT(open.x, 0.9 * closed.x);
+    EXPECT_GT(open.x, 0.4 * closed.x);
+}
+
+}  // namespace nacre
