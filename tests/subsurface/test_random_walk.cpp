@@ -2,6 +2,7 @@
 // complete simulation.
 #include "nacre/subsurface/random_walk.h"
 
+#include "nacre/bssrdf/dipole.h"
 #include "nacre/math/quadrature.h"
 #include "tests/subsurface/technique_fixture.h"
 
@@ -51,7 +52,8 @@ TEST(RandomWalkMedium, HasTheSurfaceAlbedoOfTheObjectsHalfSpace) {
         const double w = albedo_for(a);
         EXPECT_NEAR(half_space_albedo({w, 1. - w, 0., 1.}), a, 2e-4) << a;
         // Without a boundary the fit gives back the medium that one had: its accuracy.
-        const RandomWalkMedium<double> walk = random_walk_medium({3. * w, 3. * (1. - w), 0., 1.});
+        const RandomWalkMedium<double> walk =
+            random_walk_medium({3. * w, 3. * (1. - w), 0., 1.}, FreePath::transport);
         EXPECT_NEAR(walk.sigma_t, 3., 1e-12);
         EXPECT_NEAR(closed_form(walk.sigma_s / walk.sigma_t), a,
                     (a < 0.2   ? 0.04
@@ -64,7 +66,23 @@ TEST(RandomWalkMedium, HasTheSurfaceAlbedoOfTheObjectsHalfSpace) {
     EXPECT_NEAR(half_space_albedo({1., 0., 0.8, 1.3}), 1., 1e-6);
     EXPECT_EQ(half_space_albedo({0., 1., 0., 1.3}), 0.);
     // Its transport mean free path is the object's.
-    EXPECT_NEAR(random_walk_medium({10., 1., 0.8, 1.3}).sigma_t, 3., 1e-12);
+    EXPECT_NEAR(random_walk_medium({10., 1., 0.8, 1.3}, FreePath::transport).sigma_t, 3., 1e-12);
+}
+
+TEST(RandomWalkMedium, KeepsTheDiffuseFreePathIfAsked) {
+    // Where light fades as e^(-sigma_tr r), sigma_tr^2 = 3 sigma_a sigma_t', and in a white medium
+    // as far as two dipoles of the same total say.
+    for (const double a : {0.05, 0.3, 0.7}) {
+        const ProfileMedium m{20. * (1. - a), 4. * a, 0.8, 1.4};
+        const auto walk = random_walk_medium(m, FreePath::diffuse);
+        EXPECT_NEAR(std::sqrt(3. * (walk.sigma_t - walk.sigma_s) * walk.sigma_t),
+                    std::sqrt(3. * m.sigma_a * m.sigma_t_prime()), 1e-9)
+            << a;
+    }
+    const Dipole<double> behind_a_boundary(1., 1e-10, 1.5), without(1., 1e-10, 1.);
+    const double fades = (1. - behind_a_boundary.total()) / (1. - without.total());
+    EXPECT_NEAR(random_walk_medium({1., 0., 0., 1.5}, FreePath::diffuse).sigma_t, 1. / fades, 2e-3);
+    EXPECT_NEAR(random_walk_medium({1., 0., 0., 1.}, FreePath::diffuse).sigma_t, 1., 1e-9);
 }
 
 TEST_F(Techniques, RandomWalksInAHalfSpaceReturnTheSurfaceAlbedo) {
@@ -74,8 +92,8 @@ TEST_F(Techniques, RandomWalksInAHalfSpaceReturnTheSurfaceAlbedo) {
         for (int c = 0; c < 3; ++c) sigma_s[c] = extinction[c] * albedo_for(targets[c]);
         const double f = fresnel_dielectric(1., index);
         for (int c = 0; c < 3; ++c) {
-            const RandomWalkMedium<double> walk =
-                random_walk_medium({sigma_s[c], extinction[c] - sigma_s[c], 0., index});
+            const RandomWalkMedium<double> walk = random_walk_medium(
+                {sigma_s[c], extinction[c] - sigma_s[c], 0., index}, FreePath::transport);
             expected[c] = f + (1. - f) * closed_form(walk.sigma_s / walk.sigma_t);
         }
         const Scene s = scene(xml::integrator("path") + xml::constant_light() +
@@ -103,7 +121,7 @@ TEST_F(Techniques, RandomWalksInASphereAreACompleteSimulationOfTheirMedium) {
     const Vec3d sigma_s{1., 0.7, 2.}, sigma_a{0.1, 0.2, 0.01};
     Vec3d walk_s, walk_a;
     for (int c = 0; c < 3; ++c) {
-        const auto walk = random_walk_medium({sigma_s[c], sigma_a[c], 0., 1.});
+        const auto walk = random_walk_medium({sigma_s[c], sigma_a[c], 0., 1.}, FreePath::transport);
         walk_s[c] = walk.sigma_s, walk_a[c] = walk.sigma_t - walk.sigma_s;
     }
     const RayMaker rays = ray_bundle({0, 0, 9}, {0, 0, -1}, 1.5f);

@@ -22,6 +22,7 @@ constexpr SubsurfaceOption options[] = {
     {"error", "largest solid angle of points that count as one, sr", "", 0., 10.},
     {"irradiance_samples", "paths at each surface point", "", 1., 65536., true},
     {"points", "how they are spread", "elimination repulsion random"},
+    {"free_path", "the object's mean free path that random walks keep", "transport diffuse"},
 };
 
 std::vector<std::string> words_of(const SubsurfaceOption& option) {
@@ -32,6 +33,7 @@ std::vector<std::string> words_of(const SubsurfaceOption& option) {
 std::string* word_of(SubsurfaceSettings& s, std::string_view name) {
     return name == "exit_fresnel"        ? &s.exit
            : name == "single_scattering" ? &s.single_scattering
+           : name == "free_path"         ? &s.free_path
                                          : &s.points;
 }
 

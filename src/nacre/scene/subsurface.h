@@ -25,7 +25,9 @@ struct SubsurfaceSettings {
     double error = 0.2;   ///< largest solid angle of a group of points that counts as one, sr
     int irradiance_samples = 8;          ///< paths at each surface point
     std::string points = "elimination";  ///< how they are spread: elimination, repulsion, random
-    std::string where{};                 ///< place in the file, for messages; may be empty
+    /// Which of the object's lengths walks keep: "transport" or "diffuse" mean free path.
+    std::string free_path = "transport";
+    std::string where{};  ///< place in the file, for messages; may be empty
 
     /// "file:line:column: " or nothing.
     std::string prefix() const { return where.empty() ? "" : where + ": "; }

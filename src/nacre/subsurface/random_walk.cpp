@@ -37,10 +37,17 @@ double half_space_albedo(const ProfileMedium& m) {
     return std::clamp((t.reflectance - t.specular) / (1. - t.specular), 0., 1.);
 }
 
-RandomWalkMedium<double> random_walk_medium(const ProfileMedium& m) {
+RandomWalkMedium<double> random_walk_medium(const ProfileMedium& m, FreePath keep) {
     const double a = half_space_albedo(m);
-    return chiang2016_medium(a, 1. / (m.sigma_t_prime() * normalised_diffusion_scale(
-                                                              a, NormalisedDiffusionFit::diffuse)));
+    double l = 1. / m.sigma_t_prime();
+    if (keep == FreePath::diffuse) {
+        const double inside = diffuse_reflectance_internal(m.eta);
+        const double boundary = (1. + inside) / (1. - inside);
+        const double lost = m.sigma_a / m.sigma_t_prime();
+        const double ratio = std::sqrt((1. - chiang2016_single_albedo(a)) / lost);
+        l *= std::min(ratio, (3. + 2. * boundary) / 5.);
+    }
+    return chiang2016_medium(a, l / normalised_diffusion_scale(a, NormalisedDiffusionFit::diffuse));
 }
 
 /// What a walk meets: the shape's own surface, and the end of the box around it.
@@ -137,9 +144,11 @@ TranslucencyPtr make_random_walk(const TechniqueInput& in) {
     const std::vector<ProfileMedium> media =
         medium_in_bands(*in.scene.shapes[in.shape].interior, in.eta, bands);
     for (const ProfileMedium& m : media) check(m);
+    const FreePath keep =
+        in.settings.free_path == "diffuse" ? FreePath::diffuse : FreePath::transport;
     std::vector<RandomWalkMedium<double>> walks(media.size());
     tbb::parallel_for(std::size_t(0), media.size(),
-                      [&](std::size_t i) { walks[i] = random_walk_medium(media[i]); });
+                      [&](std::size_t i) { walks[i] = random_walk_medium(media[i], keep); });
     return std::make_shared<RandomWalk>(in.scene, in.shape, in.eta, bands, walks, in.exit_scale);
 }
 

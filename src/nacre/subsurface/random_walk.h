@@ -12,12 +12,20 @@
 // the object's half space through its boundary, comes out again, after all reflections at the
 // boundary's inside, by adding and doubling (layers/adding_doubling.h) and not by a diffusion
 // profile, none of which is right for all albedos. From A the fit makes the walk's albedo, and a
-// distance d its extinction 1 / (d s(A)). In the talk d is that of normalised diffusion, which for
-// a medium of mean free path l is l / s(A); l is the object's transport mean free path, so the
-// extinction of the walk is the object's sigma_t'.
+// distance d its extinction 1 / (d s(A)). In the talk d is an artist's choice, that of normalised
+// diffusion, which for a medium of mean free path l is l / s(A). Two choices of l (FreePath):
+//
+//   transport  1 / sigma_t' of the object: what single paths do. A boundary that reflects makes A
+//              and with it the walk's albedo lower than the object's, so light fades too early.
+//   diffuse    the l with which light far from where it entered fades as in the object,
+//                sqrt(3 (1 - alpha)) / l = sigma_tr,
+//              but no more than (1 + 2 B / 3) / (1 + 2 / 3) transport mean free paths, where B is
+//              the boundary's (1 + F_dr) / (1 - F_dr): the ratio in the limit of white media, by
+//              the total of the dipole; the fit stops short of it.
 //
 // Walks follow one lane's free paths, drawn anew for each walk, and are weighted for the others by
 // the balance heuristic (render/path_state.h).
+#include "nacre/bssrdf/albedo_inversion.h"
 #include "nacre/bssrdf/chiang2016.h"
 #include "nacre/bssrdf/medium.h"
 #include "nacre/render/path_state.h"
@@ -31,7 +39,7 @@ namespace nacre {
 double half_space_albedo(const ProfileMedium& medium);
 
 /// Coefficients of the walk in a medium (sigma_t' > 0), in its unit.
-RandomWalkMedium<double> random_walk_medium(const ProfileMedium& medium);
+RandomWalkMedium<double> random_walk_medium(const ProfileMedium& medium, FreePath keep);
 
 class RandomWalk final : public Translucency {
   public:

@@ -71,8 +71,9 @@ constexpr TechniqueDescription catalogue[] = {
               "SIGGRAPH 2016 Talks",
      .how = "a walk without refraction, isotropic and of diffuse entry and exit, in the medium "
             "whose half space would return the same share of the light, by their fit",
-     .precomputes = "that share, by adding and doubling",
-     .may_change = "view, light, geometry",
+     .precomputes = "",
+     .may_change = "view, light, material, geometry",
+     .variants = "free_path=transport|free_path=diffuse",
      .make = make_random_walk},
     {.name = "two_pass",
      .title = "two-pass hierarchy",
