@@ -81,7 +81,9 @@ TEST_F(Subsurface, OptionsOfTheCommandLine) {
     set_option(settings, "points", "repulsion");
     EXPECT_EQ(settings.spacing, 2.5);
     EXPECT_EQ(settings.irradiance_samples, 64);
+    set_option(settings, "free_path", "diffuse");
     EXPECT_EQ(settings.points, "repulsion");
+    EXPECT_EQ(settings.free_path, "diffuse");
     const std::vector<std::array<const char*, 3>> wrong = {
         {"spaceing", "1", "unknown option 'spaceing'; did you mean 'spacing'?"},
         {"spacing", "much", "option 'spacing' = much must be a number within [0.01, 100]"},

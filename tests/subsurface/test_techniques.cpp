@@ -215,7 +215,7 @@ TEST_F(Techniques, VariantsAreChoices) {
     EXPECT_EQ(variants[1].profile, "y");
     EXPECT_TRUE(variants[1].options.empty());
     // Two passes by three sizes of groups.
-    EXPECT_EQ(variants_of(find_technique("two_pass"))[2].options[0].second, "0.05");
+    EXPECT_EQ(variants_of(find_technique("two_pass")).back().options[0].second, "0.05");
 }
 
 TEST_F(Techniques, SayWhatTheyCannotDo) {
