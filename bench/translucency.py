@@ -121,6 +121,8 @@ def bunny(_):
     print(f"{'technique':<34} {'spp':>4} {'CPU s':>7} {'before':>7} {'relMSE':>8} {'blocks':>7}  mean over complete, RGB")
     for title, samples, options in [
             ("brdf, dipole", 64, ["--technique", "brdf"]),
+            ("hanrahan_krueger, dipole", 64, ["--technique", "hanrahan_krueger"]),
+            ("hanrahan_krueger, better dipole", 64, ["--technique", "hanrahan_krueger", "--profile", "better_dipole"]),
             ("two_pass, dipole", 4, ["--technique", "two_pass"]),
             ("two_pass, dipole, 121,759 points", 4, ["--technique", "two_pass", "--set", "spacing=1.45"]),
             ("two_pass, dipole, exit as in paper", 4, ["--technique", "two_pass", "--set", "exit_fresnel=paper"]),
@@ -131,6 +133,8 @@ def bunny(_):
             ("surface, quantised diff. + single", 64, ["--technique", "surface", "--profile", "quantised_diffusion"]),
             ("surface, beams + single", 64, ["--technique", "surface", "--profile", "photon_beam_diffusion"]),
             ("surface, normalised diffusion", 64, ["--technique", "surface", "--profile", "normalised_diffusion"]),
+            ("random_walk, transport free path", 64, ["--technique", "random_walk"]),
+            ("random_walk, diffuse free path", 64, ["--technique", "random_walk", "--set", "free_path=diffuse"]),
             ("complete simulation", 16, ["--technique", "volpath"])]:
         r = render(scene, "bunny", "--spp", samples, *options)
         means, error, blocks = compare("bunny", "bunny_reference", lambda i: mask["G"][i] > 0.5)
