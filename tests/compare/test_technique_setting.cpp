@@ -28,7 +28,7 @@ TEST(TechniqueSettings, MistakesAreNamed) {
     } cases[] = {
         {"two_pass:error", "'error' of two_pass is not of the form name=value"},
         {"two_pass:eror=1", "unknown option 'eror'; did you mean 'error'?"},
-        {"brdf,brdf", "'brdf 1 spp' is asked for twice"},
+        {"brdf,brdf", "'brdf profile=dipole 1 spp' is asked for twice"},
     };
     for (const auto& c : cases)
         EXPECT_EQ(message_of([&] { parse_techniques(c.list, {1}); }), c.message);

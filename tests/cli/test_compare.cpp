@@ -1,0 +1,153 @@
+// nacre compare, as a user runs it.
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "nacre/scene/image.h"
+#include "tests/cli/command_line.h"
+#include "tests/compare/experiment_fixture.h"
+
+namespace nacre::test {
+namespace {
+
+/// Quick: small pictures, few samples, everything kept in the test's folder.
+const std::string quickly =
+    " --spp 2 --repeats 2 --reference-error 0.3 --keep kept -o report --quiet";
+
+class CompareVerb : public CommandLine {
+  protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        if (IsSkipped()) return;
+        std::ofstream(folder_ / "ball.xml") << ball_scene(40);
+        std::string flat = ball_scene(40);
+        flat.replace(flat.find("type=\"sphere\""), 13, "type=\"rectangle\"");
+        std::ofstream(folder_ / "flat.xml") << flat;
+    }
+    nlohmann::json report() const {
+        return nlohmann::json::parse(read(folder_ / "report/report.json"));
+    }
+};
+
+}  // namespace
+
+TEST_F(CompareVerb, WritesOnePageNumbersAndPictures) {
+    const Outcome r =
+        nacre("compare ball.xml --techniques volpath,brdf,two_pass:error=1" + quickly);
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out, fs::canonical(folder_ / "report/index.html").string() + "\n");
+    for (const char* file :
+         {"reference.exr", "report.json", "pictures/brdf_profile=dipole_2_spp.exr",
+          "pictures/two_pass_error=1_2_spp.exr"})
+        EXPECT_TRUE(fs::exists(folder_ / "report" / file)) << file;
+    const nlohmann::json d = report();
+    EXPECT_EQ(d["kind"], "techniques");
+    EXPECT_FALSE(d.contains("pictures"));
+    ASSERT_EQ(d["rows"].size(), 3u);
+    for (const auto& row : d["rows"]) {
+        EXPECT_EQ(row["status"], "ok");
+        for (const char* key : {"systematic", "bias", "rms", "noise", "flip", "frame", "memory"})
+            EXPECT_TRUE(row["values"].contains(key)) << key;
+    }
+    EXPECT_EQ(d["rows"][2]["command"],
+              "nacre render ball.xml --technique two_pass --set error=1 --spp 2 -o picture.exr");
+    // What the row says can be done.
+    std::string command = d["rows"][2]["command"];
+    command.erase(0, std::string("nacre ").size());
+    EXPECT_EQ(nacre(command + " --quiet").code, 0);
+    for (const auto& fact : d["facts"]) EXPECT_TRUE(fact.is_array() && fact.size() == 2) << fact;
+
+    // The page holds its document, and nothing that must be fetched.
+    const std::string page = read(folder_ / "report/index.html");
+    EXPECT_EQ(page.find("src=\"http"), page.npos);
+    EXPECT_EQ(page.find("/*DOCUMENT*/"), page.npos);
+    const std::string opening = "id=\"document\">";
+    const std::size_t at = page.find(opening) + opening.size();
+    ASSERT_GT(at, opening.size());
+    const nlohmann::json whole =
+        nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+    EXPECT_EQ(whole["pictures"].size(), 4u);
+    EXPECT_EQ(whole["rows"], d["rows"]);
+}
+
+TEST_F(CompareVerb, ATechniqueThatFailsSaysWhyInItsRowAndInTheExitCode) {
+    const Outcome r = nacre("compare flat.xml --techniques brdf,volpath" + quickly);
+    EXPECT_EQ(r.code, 1) << r.err;
+    const nlohmann::json d = report();
+    EXPECT_EQ(d["rows"][0]["status"], "failed");
+    EXPECT_EQ(d["rows"][0]["why"],
+              "'ball' is flat: it has no inside for light to be scattered in; give it a thickness");
+    EXPECT_EQ(d["rows"][1]["status"], "ok");
+}
+
+TEST_F(CompareVerb, WhatWasMeasuredIsKept) {
+    const std::string command =
+        "compare ball.xml --techniques brdf --spp 2 --repeats 2 "
+        "--reference-error 0.3 --keep kept -o report";
+    ASSERT_EQ(nacre(command).code, 0);
+    const nlohmann::json first = report();
+    const Outcome again = nacre(command);
+    EXPECT_NE(again.err.find("kept from before"), std::string::npos) << again.err;
+    EXPECT_EQ(report()["rows"][0]["values"], first["rows"][0]["values"]);
+}
+
+/// Interrupted once a technique is being rendered: the report has what is finished, and the same
+/// command goes on with the rest.
+TEST_F(CompareVerb, CtrlCKeepsWhatIsFinished) {
+    std::ofstream(folder_ / "empty");
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        if (chdir(folder_.c_str()) != 0 || !freopen("stderr", "w", stderr) ||
+            !freopen("empty", "w", stdout))
+            _exit(99);
+        execl(NACRE_BINARY, NACRE_BINARY, "compare", "ball.xml", "--techniques",
+              "brdf,surface:profile=dipole", "--spp", "4000", "--repeats", "2",
+              "--reference-error", "0.3", "--keep", "kept", "-o", "report",
+              static_cast<char*>(nullptr));
+        _exit(98);
+    }
+    for (int i = 0; i < 2400 && read(folder_ / "stderr").find("[3/3]") == std::string::npos; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_EQ(kill(child, SIGINT), 0);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130) << read(folder_ / "stderr");
+    EXPECT_NE(read(folder_ / "stderr").find("the same command goes on"), std::string::npos);
+    const nlohmann::json d = report();
+    EXPECT_EQ(d["rows"][0]["status"], "ok");
+    EXPECT_EQ(d["rows"][1]["status"], "missing");
+    EXPECT_TRUE(fs::exists(folder_ / "report/pictures/brdf_profile=dipole_4000_spp.exr"));
+}
+
+TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
+    const struct {
+        const char *arguments, *message;
+    } cases[] = {
+        {"compare none.xml", "none.xml: cannot be opened"},
+        {"compare ball.xml --reference-error 0",
+         "--reference-error: '0' is not a positive share; "
+         "write 0.5% or 0.005"},
+        {"compare ball.xml --spp many",
+         "--spp: 'many' is not a number of samples; write 16, or several as 4,16"},
+        {"compare ball.xml --repeats 1", "--repeats: 1 is too few; it must be at least 2"},
+        {"compare ball.xml --cases ball", "--cases belongs to --suite, which is missing"},
+        {"compare --suite opacity", "--suite: 'opacity' is unknown; known are: translucency"},
+        {"compare --suite translucency --cases cube",
+         "the suite has no 'cube'; its words are: ball, sheet, bowl, bust, slab, high, low, "
+         "homogeneous, veined, front, side, back"},
+        {"compare ball.xml --suite translucency", "--suite brings its own scenes: leave out scene"},
+        {"compare ball.xml --material marble",
+         "ball.xml: --material is for bare meshes; a scene says itself what its shapes are"},
+    };
+    for (const auto& c : cases) {
+        const Outcome r = nacre(std::string(c.arguments) + " --keep kept -o report");
+        EXPECT_EQ(r.code, 2) << c.arguments;
+        EXPECT_NE(r.err.find(c.message), std::string::npos) << c.arguments << ": " << r.err;
+        EXPECT_FALSE(fs::exists(folder_ / "report")) << c.arguments;
+        EXPECT_FALSE(fs::exists(folder_ / "kept")) << c.arguments;
+    }
+}
+
+}  // namespace nacre::test
