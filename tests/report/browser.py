@@ -31,6 +31,7 @@ let s = 0; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += d[i]; return s
 class Page:
     def __init__(self, driver, document, name, failures):
         self.driver, self.document, self.name, self.failures = driver, document, name, failures
+        self.touch = name.startswith("phone")
         self.rows = document["rows"]
 
     def check(self, holds, what):
@@ -72,6 +73,28 @@ class Page:
             "type": kind, "x": x, "y": y, "button": "left" if kind != "mouseMoved" or pressed else "none",
             "buttons": 1 if pressed else 0, "clickCount": 1 if kind != "mouseMoved" else 0})
 
+    def drag(self, x0, y0, x1, y1):
+        """With a finger on the phone, with the mouse elsewhere."""
+        places = [(x0 + (x1 - x0) * i / 5, y0 + (y1 - y0) * i / 5) for i in range(6)]
+        if self.touch:
+            for kind, place in [("touchStart", places[0])] + [("touchMove", p) for p in places[1:]]:
+                self.driver.execute_cdp_cmd("Input.dispatchTouchEvent",
+                                            {"type": kind, "touchPoints": [{"x": place[0], "y": place[1]}]})
+            self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        else:
+            self.mouse("mouseMoved", *places[0])
+            self.mouse("mousePressed", *places[0], True)
+            for place in places[1:]:
+                self.mouse("mouseMoved", *place, True)
+            self.mouse("mouseReleased", *places[-1])
+        self.settle()
+
+    def tap(self, x, y):
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+        self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        time.sleep(0.4)  # a tap becomes a click only when no second one follows
+        self.settle()
+
     def click(self, selector):
         self.js("""const n = document.querySelector(arguments[0]);
             n.scrollIntoView({block: "center", behavior: "instant"}); n.click()""", selector)
@@ -98,6 +121,7 @@ def open_page(path, size, dark):
                            {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": size[0] < 500})
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
                            {"features": [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]})
+    driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": size[0] < 500})
     driver.get(path.resolve().as_uri())
     return driver
 

@@ -96,6 +96,10 @@ def check_plot(page):
             lit = page.js("return [...document.querySelectorAll('#table tr.lit')].map(n => n.dataset.row)")
             page.check(lit == [row], f"the point of {row} marks the rows {lit}")
     page.mouse("mouseMoved", 2, 2)
+    if page.touch:
+        page.js("document.querySelector('#tip').hidden = true")
+        page.tap(*page.middle("#plot .point"))
+        page.check(page.js("return !document.querySelector('#tip').hidden"), "a tap on a point shows no tooltip")
     page.js("document.querySelector('#plot .point').focus()")
     before = page.js("return document.activeElement.dataset.row")
     if len(shown) > 1:
@@ -135,12 +139,7 @@ def check_viewer(page):
     x, y = page.middle("#picture")
     left, width = page.js("const b = document.querySelector('#picture').getBoundingClientRect(); return [b.left, b.width]")
     x0 = page.middle("#split")[0]
-    page.mouse("mouseMoved", x0, y)
-    page.mouse("mousePressed", x0, y, True)
-    for i in range(1, 6):
-        page.mouse("mouseMoved", x0 + (left + 0.25 * width - x0) * i / 5, y, True)
-    page.mouse("mouseReleased", left + 0.25 * width, y)
-    page.settle()
+    page.drag(x0, y, left + 0.25 * width, y)
     page.check(abs(now() - 25) <= 1, f"dragging the slider to 25 % gives {now()}")
     page.check(page.js(SUM, "#picture") not in (only_a, only_b), "the picture at 25 % is all A or all B")
     page.js("document.activeElement.blur()")

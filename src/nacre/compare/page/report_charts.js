@@ -62,14 +62,14 @@ function lineIcon(one, index) {
 }
 
 // A line with a few markers, so that it is known without its colour. `places` in pixels.
-function seriesLine(one, places, index) {
+function seriesLine(one, places, index, marked = () => true) {
     const {colour, dash, width, marker} = lineStyle(one, index);
     const group = svg("g", {class: "series", "data-name": one.name}, svg("path", {
         d: places.map(([px, py], i) => `${i ? "L" : "M"}${px.toFixed(1)} ${py.toFixed(1)}`).join(""),
         fill: "none", stroke: colour, "stroke-width": width, "stroke-dasharray": dash, "stroke-linejoin": "round"}));
     const every = Math.max(1, Math.ceil(places.length / 6));
     for (let i = (index * 2) % every; marker && i < places.length; i += every) {
-        group.append(svg("path", {d: marker(3.6), fill: colour, transform: `translate(${places[i].map(v => v.toFixed(1)).join(" ")})`}));
+        if (marked(places[i])) group.append(svg("path", {d: marker(3.6), fill: colour, transform: `translate(${places[i].map(v => v.toFixed(1)).join(" ")})`}));
     }
     return group;
 }
@@ -149,9 +149,10 @@ function drawPolar(chart, series, node, width, mark) {
     }
     grid.append(svg("text", {class: "title", x: width / 2, y: centre[1] + (full ? radius + 30 : 27), "text-anchor": "middle"}, axisTitle(chart.y)));
     drawing.append(grid);
+    const clear = ([px, py]) => Math.hypot(px - centre[0], py - centre[1]) > .2 * radius;  // markers would hide the middle
     const all = series.map((one, index) => ({index, one, places: one.points.map(([angle, value]) => polar(angle, r.at(Math.max(0, value))))}));
     [...all].sort((a, b) => Boolean(a.one.reference) - Boolean(b.one.reference))
-        .forEach(({one, places, index}) => drawing.append(seriesLine(one, places, index)));
+        .forEach(({one, places, index}) => drawing.append(seriesLine(one, places, index, clear)));
     readOut(chart, drawing, all, mark, ([angle, value]) => [[axisTitle(chart.x) || "angle", significant(angle)], [axisTitle(chart.y) || "value", significant(value)]]);
     node.replaceChildren(drawing);
 }

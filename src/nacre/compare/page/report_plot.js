@@ -36,7 +36,7 @@ function drawPlot() {
     const at = (row, key) => row.values?.[key];
     const known = rows.filter(row => row.status === "ok" && at(row, keyX) !== undefined && at(row, keyY) !== undefined);
     const points = known.filter(row => at(row, keyX) > 0 && at(row, keyY) > 0);
-    const curves = keyX === report.plot.x[0] && keyY === report.plot.y[0] ? points.filter(row => row.curve?.length > 1) : [];
+    const curves = keyX === "total" && keyY === "rms" ? points.filter(row => row.curve?.length > 1) : [];
     const x = scale(points.map(row => at(row, keyX)), [box.left, box.right], true);
     const y = scale(points.map(row => at(row, keyY)), [box.bottom, box.top], true);
     const place = row => [x.at(at(row, keyX)), y.at(at(row, keyY))];

@@ -53,7 +53,7 @@ function sheetSection() {
             document.getElementById("section-pictures").scrollIntoView({behavior: calm ? "auto" : "smooth"});
         },
     }, tile(source.picture, source.title), caption(source),
-       source.row && measure && el("small", {class: "caption"}, `${measure.title} ${describe(source.row, measure.key)}`)));
+       source.row && measure && el("small", {class: "caption"}, describe(source.row, measure.key).replace(/ \(repeats.*/, ""))));
     const mark = () => {
         for (const card of cards) {
             card.setAttribute("aria-pressed", card.dataset.source === state.a.id);
@@ -61,6 +61,6 @@ function sheetSection() {
     };
     state.on("select", mark);
     mark();
-    return section("sheet", "All pictures", el("p", {class: "hint"}, "Choose one to see it as picture A."),
+    return section("sheet", "All pictures", el("p", {class: "hint"}, measure ? `With the ${measure.title}. ` : "", el("span", {class: "screen"}, "Choose one to see it as picture A.")),
                    el("div", {id: "sheet"}, cards));
 }

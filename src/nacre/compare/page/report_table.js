@@ -123,11 +123,12 @@ function sorted() {
 
 function tableNotes() {
     const helped = columns.filter(column => column.help);
-    const marks = [];
-    if (bestOf().size) marks.push("Bold: the best of a column, and what cannot be told from it (within two standard errors).");
-    if (rows.some(row => row.errors && Object.keys(row.errors).length)) marks.push("±: one standard error.");
-    if (rows.some(row => row.ranges && Object.keys(row.ranges).length)) marks.push("Dotted: point at a value to see the range of its repeats.");
-    return [marks.length > 0 && el("p", {class: "hint"}, marks.join(" ")),
+    const marks = [];  // text, whether it helps on paper too
+    if (bestOf().size) marks.push(["Bold: the best of a column, and what cannot be told from it (within two standard errors).", true]);
+    if (rows.some(row => row.errors && Object.keys(row.errors).length)) marks.push(["±: one standard error.", true]);
+    if (rows.some(row => row.ranges && Object.keys(row.ranges).length)) marks.push(["Dotted: point at a value to see the range of its repeats.", false]);
+    if (canUnpack && sources().length > 1) marks.push(["Choose a row to see it as picture A below.", false]);
+    return [marks.length > 0 && el("p", {class: "hint"}, marks.map(([text, paper]) => el("span", {class: paper ? null : "screen"}, `${text} `))),
             helped.length > 0 && el("details", {class: "help"}, el("summary", {}, "What the columns mean"),
                                     pairs(helped.map(column => [columnTitle(column), column.help])))];
 }

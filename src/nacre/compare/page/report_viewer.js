@@ -25,8 +25,9 @@ function viewerSection() {
                           "aria-valuemin": 0, "aria-valuemax": 100}, el("span", {"aria-hidden": "true"}, "‹›"));
     v.nameA = el("span", {class: "badge a"});
     v.nameB = el("span", {class: "badge b"});
-    v.holder = el("div", {class: "holder"}, v.canvas, v.handle, v.nameA, v.nameB);
+    v.holder = el("div", {class: "holder"}, v.canvas, v.handle);
     v.stage = el("div", {id: "stage"}, v.holder);
+    v.frame = el("div", {class: "frame"}, v.stage, v.nameA, v.nameB);
     v.legend = el("div", {id: "scale", hidden: true});
     v.readout = el("div", {id: "readout", class: "readout"});
     v.message = el("p", {class: "message", hidden: true});
@@ -42,11 +43,11 @@ function viewerSection() {
                      v.mode, setMode);
     const zooms = choice("zoom", "Zoom", [["fit", "Fit"], ["1", "1×"], ["2", "2×"], ["4", "4×"]], v.zoom, value => {
         v.zoom = value;
-        layoutStage();
+        zoomStage();
     });
     v.errorControls = el("div", {class: "controls", hidden: true},
         menu("error-range", "Scale", [10, 25, 50, 100].map(n => [n, `±${n} %`]), v.range, value => { v.range = Number(value); drawView(); }),
-        menu("error-block", "Mean of", [[1, "each pixel"], [8, "8 × 8 pixels"], [16, "16 × 16 pixels"]], v.block,
+        menu("error-block", "Averaged over", [[1, "1 pixel"], [8, "8 × 8 pixels"], [16, "16 × 16 pixels"]], v.block,
              value => { v.block = Number(value); drawView(); }));
     const flip = el("button", {type: "button", id: "flip", "aria-keyshortcuts": "F", onclick: flipView}, "Flip A/B ", el("kbd", {}, "F"));
 
@@ -54,7 +55,7 @@ function viewerSection() {
     addEventListener("keydown", event => {
         const space = event.key === " ", busy = event.target.closest?.("input, select, textarea, button, summary, a, [tabindex]");
         if (event.ctrlKey || event.metaKey || event.altKey) return;
-        if ((event.key.toLowerCase() === "f" && !event.target.closest?.("textarea")) || (space && viewInSight()
+        if ((event.key.toLowerCase() === "f" && !event.target.closest?.("textarea, select")) || (space && viewInSight()
             && (!busy || busy === v.handle))) {
             event.preventDefault();
             flipView();
@@ -68,11 +69,11 @@ function viewerSection() {
     return section("pictures", "Pictures",
         el("div", {id: "viewer"},
            el("div", {class: "pick"}, v.menuA, swap, v.menuB),
-           el("div", {class: "show"}, v.message, v.stage, v.legend),
+           el("div", {class: "show"}, v.message, v.frame, v.legend),
            el("div", {class: "side"}, el("div", {class: "controls"}, v.modes, flip), v.errorControls,
-              el("div", {class: "controls"}, el("span", {class: "name"}, "Zoom"), zooms), exposureControl("exposure"), v.readout,
+              el("div", {class: "controls"}, el("span", {class: "name"}, "Zoom"), zooms), exposureControl("exposure"),
               el("p", {class: "hint"}, "Drag the line, or move it with the arrow keys. F or space flips between A and B. "
-                 + "When zoomed, drag the picture to pan."))));
+                 + "When zoomed, drag the picture to pan."), v.readout)));
 }
 
 function viewInSight() {
@@ -138,8 +139,8 @@ async function drawView() {
     }
     const context = v.canvas.getContext("2d");
     if (mode === "error") {
-        context.putImageData(paintValues(errorMap(a, b, v.pictures.counts, v.block), a.width, a.height, diverging,
-                                         value => .5 + value * 50 / v.range), 0, 0);
+        v.map = errorMap(a, b, v.pictures.counts, v.block);
+        context.putImageData(paintValues(v.map, a.width, a.height, diverging, value => .5 + value * 50 / v.range), 0, 0);
     } else if (mode === "flip") {
         const version = v.version, map = await flipMap(state.a.flip);
         if (version !== v.version || v.mode !== "flip") return;
@@ -151,6 +152,7 @@ async function drawView() {
         if (edge > 0) context.putImageData(v.images.a, 0, 0, 0, 0, edge, a.height);
     }
     v.canvas.dataset.mode = mode;
+    v.frame.dataset.mode = mode;
     decorate(mode);
 }
 
@@ -175,18 +177,40 @@ function decorate(mode) {
     if (mode === "error") {
         drawLegend(diverging, [-1, -.5, 0, .5, 1].map(t => `${t > 0 ? "+" : ""}${number(t * v.range, v.range % 2 && t % 1 ? 1 : 0)} %`),
                    "(A − B) / (|B| + 0.01) of the mean of R, G and B. Blue: A is darker than B; red: brighter. "
-                   + (v.pictures.counts ? "Pixels that do not count are left out." : ""));
+                   + (v.pictures.counts ? "Pixels that do not count are left out. " : "") + summaryOfMap(v.map));
     } else if (mode === "flip") {
         drawLegend(rising, ["0", "0.25", "0.5", "0.75", "1"], "FLIP error of A against the reference, whatever B is: 0 looks the same.");
     }
     if (v.at) showPixel(...v.at);
-    else v.readout.replaceChildren(el("p", {class: "hint"}, "Point at the picture to read a pixel."));
+    else v.readout.replaceChildren(el("p", {class: "hint"}, "Point at the picture, or tap it, to read a pixel."));
+}
+
+function summaryOfMap(map) {
+    let sum = 0, squares = 0, n = 0;
+    for (const error of map) {
+        if (Number.isNaN(error)) continue;
+        sum += error;
+        squares += error * error;
+        ++n;
+    }
+    if (!n) return "";
+    const mean = 100 * sum / n;
+    return `Of this map: mean ${mean > 0 ? "+" : ""}${number(mean, 1)} %, RMS ${number(100 * Math.sqrt(squares / n), 1)} %.`;
 }
 
 function drawLegend(table, ticks, text) {
     const bar = el("canvas", {width: 256, height: 1, "aria-hidden": "true"});
     bar.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(table.flatMap(c => [...c, 255])), 256, 1), 0, 0);
     viewer.legend.replaceChildren(bar, el("div", {class: "ticks"}, ticks.map(tick => el("span", {}, tick))), el("p", {class: "hint"}, text));
+}
+
+// Another zoom, about the middle of what is seen.
+function zoomStage() {
+    const {stage, holder} = viewer;
+    const x = (stage.scrollLeft - holder.offsetLeft + stage.clientWidth / 2) / Math.max(1, holder.offsetWidth);
+    const y = (stage.scrollTop + stage.clientHeight / 2) / Math.max(1, holder.offsetHeight);
+    layoutStage();
+    stage.scrollTo({left: x * holder.offsetWidth - stage.clientWidth / 2, top: y * holder.offsetHeight - stage.clientHeight / 2, behavior: "instant"});
 }
 
 // The size of the picture on the page. "Fit" is smooth, whole multiples are exact pixels.
