@@ -214,6 +214,9 @@ def check_tiles(page, selector, count):
     page.js("document.querySelector(arguments[0]).scrollIntoView({block: 'start', behavior: 'instant'})", selector)
     first = f"{selector} canvas"
     page.check(page.wait("document.querySelector(arguments[0]).dataset.drawn !== undefined", first), f"{selector} draws nothing")
+    blank = page.js(PIXELS + """return [...document.querySelectorAll(arguments[0])].filter(c => c.dataset.drawn !== undefined)
+        .filter(c => pixels(c).some((v, i) => i % 4 === 3 && v !== 255)).length""", first)
+    page.check(blank == 0, f"{selector} has {blank} blank pictures")
     before = page.js(SUM, first)
     stops = page.js("return document.querySelector(arguments[0]).dataset.drawn", first)
     control = page.js("return document.querySelector('.exposure input')?.id")
@@ -311,11 +314,12 @@ def check(page, dark):
     check_table(page)
     if document.get("plot"):
         check_plot(page)
-    if sources > 1:
-        check_viewer(page)
-        check_tiles(page, "#sheet", sources)
+    # The small pictures first: the viewer's exposure would have them drawn in any case.
     if sources and document.get("crops"):
         check_tiles(page, "#crops", sources * len(document["crops"]))
+    if sources > 1:
+        check_tiles(page, "#sheet", sources)
+        check_viewer(page)
     if document.get("charts"):
         check_charts(page)
     if document.get("matrix"):

@@ -184,7 +184,7 @@ function placeLabels(points, place, box) {
         });
         if (!free) continue;
         taken.push(boxOf(free));
-        labels.push(svg("text", {class: "direct", x: free[0], y: free[1], "text-anchor": free[2], fill: style(name).colour, "data-name": name, "aria-hidden": "true"}, name));
+        labels.push(svg("text", {class: "direct", x: free[0], y: free[1], "text-anchor": free[2], fill: `color-mix(in oklab, ${style(name).colour} 65%, var(--ink))`, "data-name": name, "aria-hidden": "true"}, name));
     }
     return labels;
 }

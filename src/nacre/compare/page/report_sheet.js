@@ -2,7 +2,7 @@
 
 function caption(source) {
     if (!source.row) return el("span", {class: "caption"}, "reference");
-    return el("span", {class: "caption"}, markerIcon(source.row.name), " ", source.row.name,
+    return el("span", {class: "caption"}, markerIcon(source.row.name), "\u00a0", source.row.name,
               source.row.setting && el("small", {}, ` ${source.row.setting}`));
 }
 
