@@ -5,7 +5,8 @@ const rowOf = new Map(rows.map(row => [row.id, row]));
 const columns = report.columns ?? [];
 const columnOf = new Map(columns.map(column => [column.key, column]));
 
-// What the reader has chosen. Changes are announced as events of `state.bus`: "select" (A or B), "exposure", "theme".
+// What the reader has chosen. Changes are announced as events of `state.bus`: "select" (A or B), "exposure",
+// "theme".
 const state = {
     a: null,  // a source: see sources()
     b: null,
@@ -27,17 +28,21 @@ function svg(name, attributes = {}, ...children) {
 function fill(node, attributes, children) {
     for (const [key, value] of Object.entries(attributes)) {
         if (value === undefined || value === null || value === false) continue;
-        if (key.startsWith("on")) node.addEventListener(key.slice(2), value);
-        else node.setAttribute(key, value === true ? "" : value);
+        if (key.startsWith("on"))
+            node.addEventListener(key.slice(2), value);
+        else
+            node.setAttribute(key, value === true ? "" : value);
     }
-    node.append(...children.flat(3).filter(child => child !== undefined && child !== null && child !== false));
+    node.append(
+        ...children.flat(3).filter(child => child !== undefined && child !== null && child !== false));
     return node;
 }
 
 // A section of the page, which the navigation lists.
 function section(id, title, ...children) {
-    return el("section", {id: `section-${id}`, class: "section", "aria-labelledby": `title-${id}`},
-              el("h2", {id: `title-${id}`}, title), ...children);
+    return el(
+        "section", {id: `section-${id}`, class: "section", "aria-labelledby": `title-${id}`},
+        el("h2", {id: `title-${id}`}, title), ...children);
 }
 
 function label(row) { return row.setting ? `${row.name} ${row.setting}` : row.name; }
@@ -84,9 +89,12 @@ const tip = {
     node: document.getElementById("tip"),
     show(lines, x, y) {
         const [head, ...rest] = lines;
-        this.node.replaceChildren(...(head ? [el("strong", {}, head)] : []), ...rest.map(line =>
-            Array.isArray(line) ? el("div", {class: "pair"}, el("span", {}, line[0]), el("span", {}, line[1]))
-                                : el("div", {}, line)));
+        this.node.replaceChildren(
+            ...(head ? [el("strong", {}, head)] : []),
+            ...rest.map(
+                line => Array.isArray(line) ?
+                    el("div", {class: "pair"}, el("span", {}, line[0]), el("span", {}, line[1])) :
+                    el("div", {}, line)));
         this.node.hidden = false;
         const {offsetWidth: width, offsetHeight: height} = this.node;
         const right = document.documentElement.clientWidth - width - 8;
@@ -103,15 +111,23 @@ function explain(node, lines) {
         tip.show(lines(), box.left + box.width / 2, box.top + box.height / 2);
     };
     node.addEventListener("pointermove", event => tip.show(lines(event), event.clientX, event.clientY));
-    node.addEventListener("pointerleave", event => { if (event.pointerType === "mouse") tip.hide(); });
-    node.addEventListener("focus", () => { if (node.matches(":focus-visible")) atNode(); });
+    node.addEventListener("pointerleave", event => {
+        if (event.pointerType === "mouse") tip.hide();
+    });
+    node.addEventListener("focus", () => {
+        if (node.matches(":focus-visible")) atNode();
+    });
     node.addEventListener("blur", () => tip.hide());
-    node.addEventListener("click", event => { if (event.detail > 0) tip.show(lines(event), event.clientX, event.clientY); });
+    node.addEventListener("click", event => {
+        if (event.detail > 0) tip.show(lines(event), event.clientX, event.clientY);
+    });
 }
 
 // A tap elsewhere, Escape or scrolling ends the tooltip.
 document.addEventListener("pointerdown", () => tip.hide(), true);
-document.addEventListener("keydown", event => { if (event.key === "Escape") tip.hide(); });
+document.addEventListener("keydown", event => {
+    if (event.key === "Escape") tip.hide();
+});
 document.addEventListener("scroll", () => tip.hide(), {capture: true, passive: true});
 
 function say(text) { document.getElementById("live").textContent = text; }
@@ -129,11 +145,23 @@ function sources() {
     const list = [];
     const known = key => key !== undefined && report.pictures?.[key] !== undefined;
     if (known(report.reference?.picture)) {
-        list.push({id: "", title: `Reference: ${report.reference.title}`, short: "reference", picture: report.reference.picture});
+        list.push({
+            id: "",
+            title: `Reference: ${report.reference.title}`,
+            short: "reference",
+            picture: report.reference.picture
+        });
     }
     for (const row of rows) {
         if (known(row.picture)) {
-            list.push({id: row.id, title: label(row), short: label(row), picture: row.picture, flip: row.flip, row});
+            list.push({
+                id: row.id,
+                title: label(row),
+                short: label(row),
+                picture: row.picture,
+                flip: row.flip,
+                row
+            });
         }
     }
     return list;
@@ -164,29 +192,44 @@ function copyButton(text) {
             button.focus();
         }
         button.textContent = done ? "Copied" : "Not possible";
-        setTimeout(() => { button.textContent = "Copy"; }, 1500);
+        setTimeout(() => {
+            button.textContent = "Copy";
+        }, 1500);
     });
     return button;
 }
 
 function command(text) {
-    return el("div", {class: "command"}, el("code", {tabindex: 0, "aria-label": "Command"}, text), copyButton(text));
+    return el(
+        "div", {class: "command"}, el("code", {tabindex: 0, "aria-label": "Command"}, text),
+        copyButton(text));
 }
 
 function pairs(list, attributes = {}) {
-    return el("dl", {class: "pairs", ...attributes}, list.map(([key, value]) => el("div", {}, el("dt", {}, key), el("dd", {}, value))));
+    return el(
+        "dl", {class: "pairs", ...attributes},
+        list.map(([key, value]) => el("div", {}, el("dt", {}, key), el("dd", {}, value))));
 }
 
 // Several choices of which one holds, as a row of buttons.
 function choice(name, title, options, chosen, act) {
-    return el("fieldset", {class: "choice"}, el("legend", {class: "visually-hidden"}, title),
-              options.map(([value, text]) => el("label", {}, el("input", {
-                  type: "radio", name, value, checked: value === chosen, onchange: () => act(value),
-              }), el("span", {}, text))));
+    return el(
+        "fieldset", {class: "choice"}, el("legend", {class: "visually-hidden"}, title),
+        options.map(
+            ([value, text]) =>
+                el("label", {}, el("input", {
+                       type: "radio",
+                       name,
+                       value,
+                       checked: value === chosen,
+                       onchange: () => act(value),
+                   }),
+                   el("span", {}, text))));
 }
 
 function menu(id, title, options, chosen, act, attributes = {}) {
-    const list = el("select", {id, ...attributes, onchange: event => act(event.target.value)},
-                    options.map(([value, text]) => el("option", {value, selected: value === chosen}, text)));
+    const list =
+        el("select", {id, ...attributes, onchange: event => act(event.target.value)},
+           options.map(([value, text]) => el("option", {value, selected: value === chosen}, text)));
     return el("label", {class: "menu"}, el("span", {}, title), list);
 }

@@ -13,7 +13,8 @@ async function unpack(packed, planes) {
     const size = packed.width * packed.height;
     if (all.length !== planes * size) throw new Error(`${all.length} bytes instead of ${planes * size}`);
     return {
-        width: packed.width, height: packed.height,
+        width: packed.width,
+        height: packed.height,
         planes: Array.from({length: planes}, (_, i) => all.subarray(i * size, (i + 1) * size)),
     };
 }
@@ -63,7 +64,12 @@ function whole({width, height}) { return {x: 0, y: 0, width, height}; }
 // The part of a crop that lies in the picture.
 function clip(crop, {width, height}) {
     const x = Math.max(0, Math.min(crop.x, width - 1)), y = Math.max(0, Math.min(crop.y, height - 1));
-    return {x, y, width: Math.max(1, Math.min(crop.width, width - x)), height: Math.max(1, Math.min(crop.height, height - y))};
+    return {
+        x,
+        y,
+        width: Math.max(1, Math.min(crop.width, width - x)),
+        height: Math.max(1, Math.min(crop.height, height - y))
+    };
 }
 
 function rgbAt({width, planes: [r, g, b, e]}, x, y) {
@@ -74,8 +80,8 @@ function rgbAt({width, planes: [r, g, b, e]}, x, y) {
 const epsilon = .01;  // so that black pixels do not decide, as in the metrics
 function relative(a, b) { return (a - b) / (Math.abs(b) + epsilon); }
 
-// (A - B) / (|B| + epsilon) of the means over R, G and B, averaged first over blocks of pixels: noise averages out and
-// bias stays. Not a number where the mask says that a pixel does not count.
+// (A - B) / (|B| + epsilon) of the means over R, G and B, averaged first over blocks of pixels: noise
+// averages out and bias stays. Not a number where the mask says that a pixel does not count.
 function errorMap(a, b, counts, block) {
     const {width, height} = a;
     const out = new Float32Array(width * height).fill(NaN);
@@ -93,10 +99,16 @@ function errorMap(a, b, counts, block) {
                     }
                 }
             };
-            each(i => { sumA += mean(a, i); sumB += mean(b, i); ++n; });
+            each(i => {
+                sumA += mean(a, i);
+                sumB += mean(b, i);
+                ++n;
+            });
             if (!n) continue;
             const error = relative(sumA / n, sumB / n);
-            each(i => { out[i] = error; });
+            each(i => {
+                out[i] = error;
+            });
         }
     }
     return out;
@@ -112,10 +124,13 @@ function colours256(stops) {
     });
 }
 // Too dark is blue, too bright is red, right is white: told apart with any colour vision.
-const diverging = colours256([[0, 6, 32, 92], [.22, 28, 96, 190], [.5, 255, 255, 255], [.78, 206, 52, 36], [1, 92, 6, 18]]);
+const diverging =
+    colours256([[0, 6, 32, 92], [.22, 28, 96, 190], [.5, 255, 255, 255], [.78, 206, 52, 36], [1, 92, 6, 18]]);
 // Lightness rises evenly, so that it reads in grey as well.
-const rising = colours256([[0, 3, 3, 14], [.2, 50, 18, 95], [.4, 128, 37, 128], [.6, 212, 66, 100], [.8, 252, 145, 95],
-                           [1, 252, 250, 198]]);
+const rising = colours256([
+    [0, 3, 3, 14], [.2, 50, 18, 95], [.4, 128, 37, 128], [.6, 212, 66, 100], [.8, 252, 145, 95],
+    [1, 252, 250, 198]
+]);
 
 function paintValues(values, width, height, table, place) {
     const image = new ImageData(width, height), out = image.data;
@@ -171,7 +186,8 @@ async function drawTile(canvas) {
 }
 
 function paintTile(canvas, source, crop, key) {
-    canvas.getContext("2d").putImageData(develop(source, state.exposure, crop ? clip(crop, source) : whole(source)), 0, 0);
+    canvas.getContext("2d").putImageData(
+        develop(source, state.exposure, crop ? clip(crop, source) : whole(source)), 0, 0);
     canvas.dataset.drawn = String(state.exposure);
     canvas.dataset.key = key;
 }
@@ -186,7 +202,8 @@ let drawing = 0;
 state.on("exposure", () => {
     cancelAnimationFrame(drawing);
     drawing = requestAnimationFrame(() => {
-        for (const [canvas, {seen}] of tiles) if (seen) drawTile(canvas);
+        for (const [canvas, {seen}] of tiles)
+            if (seen) drawTile(canvas);
         whenIdle();
     });
 });
@@ -198,7 +215,8 @@ function whenIdle() {
     idle = true;
     const later = window.requestIdleCallback ?? (act => setTimeout(act, 30));
     const step = async () => {
-        const stale = [...tiles.keys()].find(canvas => canvas.dataset.drawn !== String(state.exposure) && !canvas.dataset.damaged);
+        const stale = [...tiles.keys()].find(
+            canvas => canvas.dataset.drawn !== String(state.exposure) && !canvas.dataset.damaged);
         if (!stale) {
             idle = false;
             document.documentElement.dataset.drawn = "all";
@@ -223,10 +241,19 @@ function setExposure(stops) {
 
 // One of several sliders that move together. The first has the id "exposure".
 function exposureControl(id) {
-    const range = el("input", {id, type: "range", min: -6, max: 6, step: .1, oninput: () => setExposure(Number(range.value))});
-    const output = el("output", {for: id});
-    const reset = el("button", {type: "button", id: `${id}-reset`, class: "quiet",
-                                onclick: () => setExposure(report.exposure?.start ?? 0)}, "Reset");
+    const range =
+        el("input",
+           {id, type: "range", min: -6, max: 6, step: .1, oninput: () => setExposure(Number(range.value))});
+    const output = el("output", {for: id
+    });
+    const reset =
+        el("button", {
+            type: "button",
+            id: `${id}-reset`,
+            class: "quiet",
+            onclick: () => setExposure(report.exposure?.start ?? 0)
+        },
+           "Reset");
     const show = () => {
         range.value = state.exposure;
         const text = `${state.exposure > 0 ? "+" : ""}${number(state.exposure, 1)} stops`;
@@ -236,5 +263,6 @@ function exposureControl(id) {
     };
     state.on("exposure", show);
     show();
-    return el("div", {class: "exposure"}, el("label", {for: id}, "Exposure"), range, output, reset);
+    return el("div", {class: "exposure"}, el("label", {for: id
+              }, "Exposure"), range, output, reset);
 }

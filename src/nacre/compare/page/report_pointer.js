@@ -28,8 +28,10 @@ function watchPointer() {
     });
     holder.addEventListener("pointermove", event => {
         readPixel(event);
-        if (drag?.pan) stage.scrollTo(drag.x - event.clientX, drag.y - event.clientY);
-        else if (drag) moveSplit(place(event));
+        if (drag?.pan)
+            stage.scrollTo(drag.x - event.clientX, drag.y - event.clientY);
+        else if (drag)
+            moveSplit(place(event));
     });
     const end = () => {
         drag = null;
@@ -40,8 +42,16 @@ function watchPointer() {
     holder.addEventListener("lostpointercapture", end);
     handle.addEventListener("keydown", event => {
         const step = event.shiftKey ? .1 : .01;
-        const to = {ArrowLeft: viewer.split - step, ArrowDown: viewer.split - step, ArrowRight: viewer.split + step,
-                    ArrowUp: viewer.split + step, PageDown: viewer.split - .1, PageUp: viewer.split + .1, Home: 0, End: 1}[event.key];
+        const to = {
+            ArrowLeft: viewer.split - step,
+            ArrowDown: viewer.split - step,
+            ArrowRight: viewer.split + step,
+            ArrowUp: viewer.split + step,
+            PageDown: viewer.split - .1,
+            PageUp: viewer.split + .1,
+            Home: 0,
+            End: 1
+        }[event.key];
         if (to === undefined) return;
         event.preventDefault();
         moveSplit(to);
@@ -69,17 +79,22 @@ function showPixel(x, y) {
     const inside = picture => x < picture.width && y < picture.height;
     const lines = [];
     const values = picture => rgbAt(picture, x, y);
-    const line = (name, source, picture) => el("tr", {}, el("th", {scope: "row"}, name),
-        inside(picture) ? values(picture).map(v => el("td", {}, significant(v))) : el("td", {colspan: 3}, "outside"));
+    const line = (name, source, picture) =>
+        el("tr", {}, el("th", {scope: "row"}, name),
+           inside(picture) ? values(picture).map(v => el("td", {}, significant(v))) :
+                             el("td", {colspan: 3}, "outside"));
     lines.push(line("A", state.a, a), line("B", state.b, b));
     if (inside(a) && inside(b)) {
         const mean = v => (v[0] + v[1] + v[2]) / 3;
         const percent = error => `${error > 0 ? "+" : ""}${number(error * 100, 1)} %`;
-        lines.push(el("tr", {}, el("th", {scope: "row"}, "error"),
-                      values(a).map((v, i) => el("td", {}, percent(relative(v, values(b)[i]))))),
-                   el("tr", {}, el("th", {scope: "row"}, "mean"),
-                      el("td", {colspan: 3}, percent(relative(mean(values(a)), mean(values(b)))))));
+        lines.push(
+            el("tr", {}, el("th", {scope: "row"}, "error"),
+               values(a).map((v, i) => el("td", {}, percent(relative(v, values(b)[i]))))),
+            el("tr", {}, el("th", {scope: "row"}, "mean"),
+               el("td", {colspan: 3}, percent(relative(mean(values(a)), mean(values(b)))))));
     }
-    viewer.readout.replaceChildren(el("table", {}, el("caption", {}, `Pixel ${x}, ${y}`),
-        el("thead", {}, el("tr", {}, el("td"), ["R", "G", "B"].map(c => el("th", {scope: "col"}, c)))), el("tbody", {}, lines)));
+    viewer.readout.replaceChildren(
+        el("table", {}, el("caption", {}, `Pixel ${x}, ${y}`),
+           el("thead", {}, el("tr", {}, el("td"), ["R", "G", "B"].map(c => el("th", {scope: "col"}, c)))),
+           el("tbody", {}, lines)));
 }
