@@ -1,0 +1,320 @@
+#include "nacre/measured/fit.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+
+#include "nacre/math/error.h"
+#include "nacre/measured/fit_plan.h"
+#include "nacre/measured/model_slopes.h"
+
+namespace nacre {
+namespace {
+
+/// Where the numbers of the unknowns stand in the list that the solver sees: three in a row for a
+/// colour.
+struct Layout {
+    explicit Layout(const std::vector<Unknown>& unknowns) {
+        for (const Unknown& u : unknowns) {
+            first.push_back(size);
+            size += u.colour ? 3 : 1;
+        }
+    }
+    std::vector<int> first;
+    int size = 0;
+};
+
+/// Residuals: for each pair and band what the metric sees of model and target, times the root of
+/// the weight, over the target's size; half their sum of squares is half the squared relative
+/// error.
+class Residuals final : public ceres::CostFunction {
+  public:
+    Residuals(const ModelDescription& model, const std::array<ValuesD, 3>& fixed,
+              const std::vector<Unknown>& unknowns, const TargetSamples& samples, FitMetric metric)
+        : model_(model),
+          fixed_(fixed),
+          unknowns_(unknowns),
+          layout_(unknowns),
+          samples_(samples),
+          metric_(metric),
+          slot_(model.parameters.size(), -1) {
+        for (std::size_t u = 0; u < unknowns.size(); ++u)
+            for (int i : unknowns[u].parameters) slot_[i] = int(u);
+        set_num_residuals(int(3 * samples.size()));
+        mutable_parameter_block_sizes()->push_back(layout_.size);
+        const double size = target_size(samples, metric);
+        for (double w : samples.weight) factor_.push_back(std::sqrt(w / 3.) / size);
+    }
+
+    bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+        double* jacobian = jacobians ? jacobians[0] : nullptr;
+        std::atomic<bool> finite = true;
+        for (int band = 0; band < 3; ++band) {
+            const ValuesD values = values_at(x[0], band);
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples_.size(), 256),
+                              [&](const auto& r) {
+                                  if (!add(values, band, r.begin(), r.end(), residuals, jacobian))
+                                      finite = false;
+                              });
+        }
+        return finite;
+    }
+
+    ValuesD values_at(const double* x, int band) const {
+        ValuesD values = fixed_[band];
+        for (std::size_t u = 0; u < unknowns_.size(); ++u)
+            for (int i : unknowns_[u].parameters)
+                values.set_scalar(i, x[layout_.first[u] + (unknowns_[u].colour ? band : 0)]);
+        return values;
+    }
+
+    /// Which unknowns change anything at x.
+    void note_active(const double* x, std::vector<bool>& active) const {
+        std::vector<double> residuals(num_residuals());
+        std::vector<double> jacobian(residuals.size() * layout_.size);
+        double* rows = jacobian.data();
+        Evaluate(&x, residuals.data(), &rows);
+        for (std::size_t u = 0; u < unknowns_.size(); ++u)
+            for (std::size_t k = layout_.first[u]; k < jacobian.size() && !active[u];
+                 k += layout_.size)
+                active[u] = jacobian[k] != 0.;
+    }
+
+  private:
+    bool add(const ValuesD& values, int band, std::size_t begin, std::size_t end, double* residuals,
+             double* jacobian) const {
+        const std::size_t n = end - begin;
+        const int slots = jacobian ? int(unknowns_.size()) : 0;
+        const std::vector<int> none(slot_.size(), -1);
+        std::vector<double> value(n), slopes(n * slots);
+        eval_with_slopes(model_, values, jacobian ? slot_ : none, slots,
+                         std::span(samples_.wi).subspan(begin, n),
+                         std::span(samples_.wo).subspan(begin, n), value, slopes);
+        bool finite = true;
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t i = begin + k, row = 3 * i + band;
+            const double c = samples_.wi[i].z, f = value[k] * c;
+            residuals[row] =
+                factor_[i] * (seen(f, metric_) - seen(samples_.value[i][band] * c, metric_));
+            finite = finite && std::isfinite(residuals[row]);
+            if (!jacobian) continue;
+            const double chain =
+                factor_[i] * c * (metric_ == FitMetric::cosine ? 1. : 1. / (1. + std::max(f, 0.)));
+            double* to = jacobian + row * layout_.size;
+            std::fill(to, to + layout_.size, 0.);
+            for (int u = 0; u < slots; ++u) {
+                const double slope = chain * slopes[k * slots + u];
+                // At the ends of ranges roots may have none: such a pair does not pull.
+                to[layout_.first[u] + (unknowns_[u].colour ? band : 0)] =
+                    std::isfinite(slope) ? slope : 0.;
+            }
+        }
+        return finite;
+    }
+
+    const ModelDescription& model_;
+    const std::array<ValuesD, 3>& fixed_;
+    const std::vector<Unknown>& unknowns_;
+    Layout layout_;
+    const TargetSamples& samples_;
+    FitMetric metric_;
+    std::vector<int> slot_;
+    std::vector<double> factor_;
+};
+
+class StopWhenAsked final : public ceres::IterationCallback {
+  public:
+    explicit StopWhenAsked(const std::atomic<bool>* stop) : stop_(stop) {}
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+        return stop_ && *stop_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+
+  private:
+    const std::atomic<bool>* stop_;
+};
+
+struct Solution {
+    std::vector<double> x;
+    double cost = infinite;
+    int iterations = 0;
+    bool converged = false;
+};
+
+Solution solve(Residuals& residuals, const std::vector<Unknown>& unknowns, std::vector<double> x,
+               int iterations, const std::atomic<bool>* stop) {
+    ceres::Problem::Options ours;
+    ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ours);
+    problem.AddParameterBlock(x.data(), int(x.size()));
+    problem.AddResidualBlock(&residuals, nullptr, x.data());
+    const Layout layout(unknowns);
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+        for (int k = 0; k < (unknowns[u].colour ? 3 : 1); ++k) {
+            problem.SetParameterLowerBound(x.data(), layout.first[u] + k, unknowns[u].low);
+            if (unknowns[u].high < infinite)
+                problem.SetParameterUpperBound(x.data(), layout.first[u] + k, unknowns[u].high);
+        }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = iterations;
+    options.function_tolerance = 1e-9;
+    options.gradient_tolerance = 1e-14;
+    options.parameter_tolerance = 1e-10;
+    options.logging_type = ceres::SILENT;
+    StopWhenAsked callback(stop);
+    options.callbacks.push_back(&callback);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return {std::move(x)};
+    return {std::move(x), summary.final_cost, int(summary.iterations.size()),
+            summary.termination_type == ceres::CONVERGENCE};
+}
+
+std::vector<double> spread(const std::vector<Unknown>& unknowns, const std::vector<double>& start) {
+    std::vector<double> x;
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+        x.insert(x.end(), unknowns[u].colour ? 3 : 1, start[u]);
+    return x;
+}
+
+/// Those that change anything near some start.
+std::vector<Unknown> active_unknowns(const ModelDescription& model,
+                                     const std::array<ValuesD, 3>& fixed,
+                                     const std::vector<Unknown>& unknowns,
+                                     const TargetSamples& samples, FitMetric metric) {
+    std::vector<bool> active(unknowns.size());
+    const Residuals trial(model, fixed, unknowns, samples, metric);
+    for (const auto& start : plan_starts(unknowns))
+        trial.note_active(spread(unknowns, start).data(), active);
+    std::vector<Unknown> kept;
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+        if (active[u]) kept.push_back(unknowns[u]);
+    return kept;
+}
+
+/// Drops solutions that cost as much as a better one, to one part in ten thousand: the same valley.
+/// Keeps at most three. They are sorted.
+void keep_different(std::vector<Solution>& solutions) {
+    std::vector<Solution> kept;
+    for (Solution& s : solutions)
+        if (kept.empty() || (kept.size() < 3 && s.cost > kept.back().cost * (1. + 1e-4)))
+            kept.push_back(std::move(s));
+    solutions = std::move(kept);
+}
+
+/// A few steps from every start, then the best ones to their ends. The first steps go by the
+/// logarithmic metric, whatever is asked for: highlights leave it smooth.
+Solution best_solution(const ModelDescription& model, const std::array<ValuesD, 3>& fixed,
+                       const std::vector<Unknown>& unknowns, const TargetSamples& samples,
+                       const TargetSamples& few, const FitOptions& options) {
+    const auto better = [](const Solution& a, const Solution& b) { return a.cost < b.cost; };
+    std::vector<Solution> solutions;
+    Residuals coarse(model, fixed, unknowns, few, FitMetric::log);
+    for (const auto& start : plan_starts(unknowns))
+        solutions.push_back(solve(coarse, unknowns, spread(unknowns, start), 15, options.stop));
+    std::stable_sort(solutions.begin(), solutions.end(), better);
+    if (!(solutions.front().cost < infinite))
+        throw RunError(fmt::format("{} cannot be fitted: its values are not finite", model.name));
+    keep_different(solutions);
+    Residuals fine(model, fixed, unknowns, samples, options.metric);
+    for (Solution& s : solutions)
+        s = solve(fine, unknowns, s.x, options.most_iterations, options.stop);
+    return *std::min_element(solutions.begin(), solutions.end(), better);
+}
+
+/// To six digits, as it is printed, so that what is measured is what is printed; towards the inside
+/// of the range.
+double rounded(double x, const Unknown& unknown) {
+    double r = std::stod(fmt::format("{:.6g}", x));
+    const double digit = std::pow(10., std::floor(std::log10(std::abs(x))) - 5.);
+    if (r > unknown.high) r = std::stod(fmt::format("{:.6g}", r - digit));
+    if (r < unknown.low) r = std::stod(fmt::format("{:.6g}", r + digit));
+    return r;
+}
+
+/// Puts what comes within a millionth of an end of its range there; whether any does.
+bool snap_to_limits(const Unknown& unknown, double* x) {
+    bool any = false;
+    for (int k = 0; k < (unknown.colour ? 3 : 1); ++k)
+        for (double end : {unknown.low, unknown.high})
+            if (std::abs(x[k] - end) <= 1e-6 * std::max(1., std::abs(x[k]))) {
+                x[k] = end;
+                any = true;
+            }
+    return any;
+}
+
+SettingValue fitted_value(const Unknown& unknown, const double* x) {
+    double r[3];
+    for (int k = 0; k < (unknown.colour ? 3 : 1); ++k) r[k] = rounded(x[k], unknown);
+    if (!unknown.colour || (r[1] == r[0] && r[2] == r[0])) return r[0];
+    return Vec3f(float(r[0]), float(r[1]), float(r[2]));
+}
+
+std::string value_text(const SettingValue& value) {
+    if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.6g}", *number);
+    if (const auto* word = std::get_if<std::string>(&value)) return *word;
+    if (const auto* rgb = std::get_if<Vec3f>(&value))
+        return fmt::format("{:.6g},{:.6g},{:.6g}", rgb->x, rgb->y, rgb->z);
+    return "(spectrum)";
+}
+
+}  // namespace
+
+std::string settings_text(const Settings& settings) {
+    std::string text;
+    for (const Setting& s : settings)
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", s.name, value_text(s.value));
+    return text;
+}
+
+ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
+                   const FitOptions& options) {
+    const auto begin = std::chrono::steady_clock::now();
+    const ModelDescription& model = evaluator.description();
+    const std::array<ValuesD, 3> fixed =
+        band_values(AnyModel(evaluator, given, Bounds::ranges_only));
+    const TargetSamples few = samples.thinned(8);
+    const std::vector<Unknown> unknowns = active_unknowns(
+        model, fixed, plan_unknowns(model, given, samples.isotropic), few, options.metric);
+    Solution best{{}, 0., 0, true};
+    if (!unknowns.empty()) best = best_solution(model, fixed, unknowns, samples, few, options);
+
+    Settings settings = given;
+    std::vector<std::string> at_limit;
+    const Layout layout(unknowns);
+    for (std::size_t u = 0; u < unknowns.size(); ++u) {
+        const Unknown& unknown = unknowns[u];
+        double* x = &best.x[layout.first[u]];
+        if (snap_to_limits(unknown, x)) at_limit.push_back(unknown.name);
+        const SettingValue value = fitted_value(unknown, x);
+        // Lafortune's cx and cy move together, but no name means both.
+        if (find_parameters(model, unknown.name).size() == unknown.parameters.size())
+            settings.push_back({unknown.name, value});
+        else
+            for (int i : unknown.parameters)
+                settings.push_back({std::string(model.parameters[i].name), value});
+    }
+    const AnyModel fitted(evaluator, settings, Bounds::ranges_only);
+    ModelFit fit{.settings = settings,
+                 .text = settings_text(settings),
+                 .model = fitted,
+                 .errors = errors_of(fitted, samples),
+                 .iterations = best.iterations,
+                 .converged = best.converged && !(options.stop && *options.stop),
+                 .at_limit = at_limit,
+                 .beyond = {}};
+    try {
+        AnyModel(evaluator, settings, Bounds::enforced);
+    } catch (const InputError& e) {
+        fit.beyond = e.what();
+    }
+    fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return fit;
+}
+
+}  // namespace nacre
