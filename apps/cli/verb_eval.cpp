@@ -5,6 +5,7 @@
 #include "apps/cli/plot.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
+#include "nacre/measured/cuts.h"
 #include "nacre/reflectance/albedo.h"
 
 namespace nacre::cli {
@@ -32,10 +33,6 @@ Vec3d parse_direction(const std::string& text, const char* option) {
     return normalize(w);
 }
 
-Vec3d in_plane(double degrees) {
-    return {std::sin(degrees * degree), 0., std::cos(degrees * degree)};
-}
-
 /// The angles of incidence of a plot: that of --wi, or a few. A grazing lobe would dwarf the others
 /// in a polar plot.
 std::vector<double> incidences(const Options& o) {
@@ -56,7 +53,7 @@ std::string title_of(const Options& o) {
 Table albedo_table(const AnyModel& model, const Options& o) {
     Table t{title_of(o), {"theta_i_deg", "albedo"}, {}, PlotKind::curves, "albedo"};
     for (int i = 0; i <= 89; ++i) {
-        const Vec3d wi = in_plane(i);
+        const Vec3d wi = in_plane(i * degree);
         t.rows.push_back(
             {double(i), directional_albedo(model, wi, o.nm, 1e-6).value + model.mirror(wi, o.nm)});
     }
@@ -70,26 +67,21 @@ Table cut_table(const AnyModel& model, const Options& o, PlotKind kind) {
     for (double a : angles) t.columns.push_back(fmt::format("theta_i={:g}", a));
     for (double out = -89.5; out <= 89.5; out += 0.5) {
         std::vector<double> row{out};
-        for (double a : angles) row.push_back(model.eval(in_plane(-a), in_plane(out), o.nm));
+        for (double a : angles)
+            row.push_back(model.eval(in_plane(-a * degree), in_plane(out * degree), o.nm));
         t.rows.push_back(std::move(row));
     }
     return t;
 }
 
-/// B. Burley 2012, Physically-Based Shading at Disney: the value over the angle of the half vector
-/// to the normal and that of the light to the half vector, light and viewer turned a quarter about
-/// the half vector (phi_d = 90 degrees).
+/// Burley's slice: the value over the angle of the half vector to the normal and that of the light
+/// to the half vector.
 Table slice_table(const AnyModel& model, const Options& o) {
     Table t{title_of(o), {"theta_h_deg", "theta_d_deg", "f"}, {}, PlotKind::image, "f / sr^-1"};
     for (int d = 0; d < 90; ++d)
         for (int h = 0; h < 90; ++h) {
-            const double th = (h + 0.5) * degree, td = (d + 0.5) * degree;
-            // The difference vector (0, sin td, cos td) turned from the normal to the half vector.
-            const auto turned = [&](double y) {
-                return Vec3d{std::cos(td) * std::sin(th), y, std::cos(td) * std::cos(th)};
-            };
-            t.rows.push_back(
-                {h + 0.5, d + 0.5, model.eval(turned(std::sin(td)), turned(-std::sin(td)), o.nm)});
+            const DirectionPair w = burley_slice((h + 0.5) * degree, (d + 0.5) * degree);
+            t.rows.push_back({h + 0.5, d + 0.5, model.eval(w.wi, w.wo, o.nm)});
         }
     return t;
 }

@@ -2,6 +2,7 @@
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
+#include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <tbb/parallel_for.h>
@@ -144,13 +145,16 @@ struct Solution {
     bool converged = false;
 };
 
+/// From x within the bounds. What `held` lists stays as it is.
 Solution solve(Residuals& residuals, const std::vector<Unknown>& unknowns, std::vector<double> x,
-               int iterations, const std::atomic<bool>* stop) {
+               int iterations, const std::atomic<bool>* stop, const std::vector<int>& held = {}) {
     ceres::Problem::Options ours;
     ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ours);
     problem.AddParameterBlock(x.data(), int(x.size()));
     problem.AddResidualBlock(&residuals, nullptr, x.data());
+    if (!held.empty())
+        problem.SetManifold(x.data(), new ceres::SubsetManifold(int(x.size()), held));
     const Layout layout(unknowns);
     for (std::size_t u = 0; u < unknowns.size(); ++u)
         for (int k = 0; k < (unknowns[u].colour ? 3 : 1); ++k) {
@@ -172,6 +176,35 @@ Solution solve(Residuals& residuals, const std::vector<Unknown>& unknowns, std::
     if (!summary.IsSolutionUsable()) return {std::move(x)};
     return {std::move(x), summary.final_cost, int(summary.iterations.size()),
             summary.termination_type == ceres::CONVERGENCE};
+}
+
+/// Positions in x of what stands at the end of its range.
+std::vector<int> at_ends(const std::vector<Unknown>& unknowns, const std::vector<double>& x) {
+    std::vector<int> found;
+    const Layout layout(unknowns);
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+        for (int k = layout.first[u]; k < layout.first[u] + (unknowns[u].colour ? 3 : 1); ++k)
+            if (x[k] <= unknowns[u].low || x[k] >= unknowns[u].high) found.push_back(k);
+    return found;
+}
+
+/// `solve` to the end. Its steps end at the bounds that they meet, which can be a crawl along them;
+/// so what has reached one is held while the others move, and let go again.
+Solution solve_within(Residuals& residuals, const std::vector<Unknown>& unknowns,
+                      std::vector<double> x, int iterations, const std::atomic<bool>* stop) {
+    Solution best = solve(residuals, unknowns, std::move(x), iterations, stop);
+    for (int round = 0; round < 5 && best.cost < infinite && !(stop && *stop); ++round) {
+        const std::vector<int> held = at_ends(unknowns, best.x);
+        if (held.empty() || held.size() == best.x.size()) break;
+        const double before = best.cost;
+        for (const std::vector<int>& h : {held, std::vector<int>{}}) {
+            Solution next = solve(residuals, unknowns, best.x, iterations, stop, h);
+            next.iterations += best.iterations;
+            if (next.cost < best.cost) best = std::move(next);
+        }
+        if (best.cost > before * (1. - 1e-7)) break;
+    }
+    return best;
 }
 
 std::vector<double> spread(const std::vector<Unknown>& unknowns, const std::vector<double>& start) {
@@ -222,7 +255,7 @@ Solution best_solution(const ModelDescription& model, const std::array<ValuesD, 
     keep_different(solutions);
     Residuals fine(model, fixed, unknowns, samples, options.metric);
     for (Solution& s : solutions)
-        s = solve(fine, unknowns, s.x, options.most_iterations, options.stop);
+        s = solve_within(fine, unknowns, s.x, options.most_iterations, options.stop);
     return *std::min_element(solutions.begin(), solutions.end(), better);
 }
 
