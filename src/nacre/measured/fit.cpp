@@ -1,131 +1,17 @@
 #include "nacre/measured/fit.h"
 
-#include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <tbb/parallel_for.h>
 
 #include <chrono>
 
 #include "nacre/math/error.h"
-#include "nacre/measured/fit_plan.h"
-#include "nacre/measured/model_slopes.h"
+#include "nacre/measured/fit_residuals.h"
 
 namespace nacre {
 namespace {
-
-/// Where the numbers of the unknowns stand in the list that the solver sees: three in a row for a
-/// colour.
-struct Layout {
-    explicit Layout(const std::vector<Unknown>& unknowns) {
-        for (const Unknown& u : unknowns) {
-            first.push_back(size);
-            size += u.colour ? 3 : 1;
-        }
-    }
-    std::vector<int> first;
-    int size = 0;
-};
-
-/// Residuals: for each pair and band what the metric sees of model and target, times the root of
-/// the weight, over the target's size; half their sum of squares is half the squared relative
-/// error.
-class Residuals final : public ceres::CostFunction {
-  public:
-    Residuals(const ModelDescription& model, const std::array<ValuesD, 3>& fixed,
-              const std::vector<Unknown>& unknowns, const TargetSamples& samples, FitMetric metric)
-        : model_(model),
-          fixed_(fixed),
-          unknowns_(unknowns),
-          layout_(unknowns),
-          samples_(samples),
-          metric_(metric),
-          slot_(model.parameters.size(), -1) {
-        for (std::size_t u = 0; u < unknowns.size(); ++u)
-            for (int i : unknowns[u].parameters) slot_[i] = int(u);
-        set_num_residuals(int(3 * samples.size()));
-        mutable_parameter_block_sizes()->push_back(layout_.size);
-        const double size = target_size(samples, metric);
-        for (double w : samples.weight) factor_.push_back(std::sqrt(w / 3.) / size);
-    }
-
-    bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-        double* jacobian = jacobians ? jacobians[0] : nullptr;
-        std::atomic<bool> finite = true;
-        for (int band = 0; band < 3; ++band) {
-            const ValuesD values = values_at(x[0], band);
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples_.size(), 256),
-                              [&](const auto& r) {
-                                  if (!add(values, band, r.begin(), r.end(), residuals, jacobian))
-                                      finite = false;
-                              });
-        }
-        return finite;
-    }
-
-    ValuesD values_at(const double* x, int band) const {
-        ValuesD values = fixed_[band];
-        for (std::size_t u = 0; u < unknowns_.size(); ++u)
-            for (int i : unknowns_[u].parameters)
-                values.set_scalar(i, x[layout_.first[u] + (unknowns_[u].colour ? band : 0)]);
-        return values;
-    }
-
-    /// Which unknowns change anything at x.
-    void note_active(const double* x, std::vector<bool>& active) const {
-        std::vector<double> residuals(num_residuals());
-        std::vector<double> jacobian(residuals.size() * layout_.size);
-        double* rows = jacobian.data();
-        Evaluate(&x, residuals.data(), &rows);
-        for (std::size_t u = 0; u < unknowns_.size(); ++u)
-            for (std::size_t k = layout_.first[u]; k < jacobian.size() && !active[u];
-                 k += layout_.size)
-                active[u] = jacobian[k] != 0.;
-    }
-
-  private:
-    bool add(const ValuesD& values, int band, std::size_t begin, std::size_t end, double* residuals,
-             double* jacobian) const {
-        const std::size_t n = end - begin;
-        const int slots = jacobian ? int(unknowns_.size()) : 0;
-        const std::vector<int> none(slot_.size(), -1);
-        std::vector<double> value(n), slopes(n * slots);
-        eval_with_slopes(model_, values, jacobian ? slot_ : none, slots,
-                         std::span(samples_.wi).subspan(begin, n),
-                         std::span(samples_.wo).subspan(begin, n), value, slopes);
-        bool finite = true;
-        for (std::size_t k = 0; k < n; ++k) {
-            const std::size_t i = begin + k, row = 3 * i + band;
-            const double c = samples_.wi[i].z, f = value[k] * c;
-            residuals[row] =
-                factor_[i] * (seen(f, metric_) - seen(samples_.value[i][band] * c, metric_));
-            finite = finite && std::isfinite(residuals[row]);
-            if (!jacobian) continue;
-            const double chain =
-                factor_[i] * c * (metric_ == FitMetric::cosine ? 1. : 1. / (1. + std::max(f, 0.)));
-            double* to = jacobian + row * layout_.size;
-            std::fill(to, to + layout_.size, 0.);
-            for (int u = 0; u < slots; ++u) {
-                const double slope = chain * slopes[k * slots + u];
-                // At the ends of ranges roots may have none: such a pair does not pull.
-                to[layout_.first[u] + (unknowns_[u].colour ? band : 0)] =
-                    std::isfinite(slope) ? slope : 0.;
-            }
-        }
-        return finite;
-    }
-
-    const ModelDescription& model_;
-    const std::array<ValuesD, 3>& fixed_;
-    const std::vector<Unknown>& unknowns_;
-    Layout layout_;
-    const TargetSamples& samples_;
-    FitMetric metric_;
-    std::vector<int> slot_;
-    std::vector<double> factor_;
-};
 
 class StopWhenAsked final : public ceres::IterationCallback {
   public:
@@ -146,7 +32,7 @@ struct Solution {
 };
 
 /// From x within the bounds. What `held` lists stays as it is.
-Solution solve(Residuals& residuals, const std::vector<Unknown>& unknowns, std::vector<double> x,
+Solution solve(FitResiduals& residuals, const std::vector<Unknown>& unknowns, std::vector<double> x,
                int iterations, const std::atomic<bool>* stop, const std::vector<int>& held = {}) {
     ceres::Problem::Options ours;
     ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -188,12 +74,11 @@ std::vector<int> at_ends(const std::vector<Unknown>& unknowns, const std::vector
     return found;
 }
 
-/// `solve` to the end. Its steps end at the bounds that they meet, which can be a crawl along them;
-/// so what has reached one is held while the others move, and let go again.
-Solution solve_within(Residuals& residuals, const std::vector<Unknown>& unknowns,
-                      std::vector<double> x, int iterations, const std::atomic<bool>* stop) {
-    Solution best = solve(residuals, unknowns, std::move(x), iterations, stop);
-    for (int round = 0; round < 5 && best.cost < infinite && !(stop && *stop); ++round) {
+/// Goes on from a solution. The solver's steps end at the bounds that they meet, which can be a
+/// crawl along them; so what has reached one is held while the others move, and let go again.
+Solution polished(FitResiduals& residuals, const std::vector<Unknown>& unknowns, Solution best,
+                  int iterations, const std::atomic<bool>* stop) {
+    for (int round = 0; round < 3 && best.cost < infinite && !(stop && *stop); ++round) {
         const std::vector<int> held = at_ends(unknowns, best.x);
         if (held.empty() || held.size() == best.x.size()) break;
         const double before = best.cost;
@@ -202,7 +87,7 @@ Solution solve_within(Residuals& residuals, const std::vector<Unknown>& unknowns
             next.iterations += best.iterations;
             if (next.cost < best.cost) best = std::move(next);
         }
-        if (best.cost > before * (1. - 1e-7)) break;
+        if (best.cost > before * (1. - 1e-5)) break;
     }
     return best;
 }
@@ -220,7 +105,7 @@ std::vector<Unknown> active_unknowns(const ModelDescription& model,
                                      const std::vector<Unknown>& unknowns,
                                      const TargetSamples& samples, FitMetric metric) {
     std::vector<bool> active(unknowns.size());
-    const Residuals trial(model, fixed, unknowns, samples, metric);
+    const FitResiduals trial(model, fixed, unknowns, samples, metric);
     for (const auto& start : plan_starts(unknowns))
         trial.note_active(spread(unknowns, start).data(), active);
     std::vector<Unknown> kept;
@@ -246,17 +131,18 @@ Solution best_solution(const ModelDescription& model, const std::array<ValuesD, 
                        const TargetSamples& few, const FitOptions& options) {
     const auto better = [](const Solution& a, const Solution& b) { return a.cost < b.cost; };
     std::vector<Solution> solutions;
-    Residuals coarse(model, fixed, unknowns, few, FitMetric::log);
+    FitResiduals coarse(model, fixed, unknowns, few, FitMetric::log);
     for (const auto& start : plan_starts(unknowns))
         solutions.push_back(solve(coarse, unknowns, spread(unknowns, start), 15, options.stop));
     std::stable_sort(solutions.begin(), solutions.end(), better);
     if (!(solutions.front().cost < infinite))
         throw RunError(fmt::format("{} cannot be fitted: its values are not finite", model.name));
     keep_different(solutions);
-    Residuals fine(model, fixed, unknowns, samples, options.metric);
+    FitResiduals fine(model, fixed, unknowns, samples, options.metric);
     for (Solution& s : solutions)
-        s = solve_within(fine, unknowns, s.x, options.most_iterations, options.stop);
-    return *std::min_element(solutions.begin(), solutions.end(), better);
+        s = solve(fine, unknowns, s.x, options.most_iterations, options.stop);
+    return polished(fine, unknowns, *std::min_element(solutions.begin(), solutions.end(), better),
+                    options.most_iterations, options.stop);
 }
 
 /// To six digits, as it is printed, so that what is measured is what is printed; towards the inside

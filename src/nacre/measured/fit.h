@@ -17,7 +17,7 @@ namespace nacre {
 
 struct FitOptions {
     FitMetric metric = FitMetric::log;
-    int most_iterations = 200;                ///< of a start that goes on
+    int most_iterations = 100;                ///< of a start that goes on
     const std::atomic<bool>* stop = nullptr;  ///< when set, the best so far is returned
 };
 
