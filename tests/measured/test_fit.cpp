@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <filesystem>
 #include <numbers>
 
 #include "nacre/math/error.h"
@@ -80,6 +81,16 @@ TEST(Fit, AMattSurfaceIsNotRough) {
     EXPECT_EQ(f.beyond, "");
 }
 
+// The end of sigma's range is pi/2, which six digits would exceed.
+TEST(Fit, WhatIsPrintedIsWithinTheRange) {
+    const ModelFit f = fit("oren_nayar", samples_of("eon reflectance=0.6 roughness=0.8"));
+    EXPECT_NE(f.text.find("sigma=1.57079"), f.text.npos) << f.text;
+    EXPECT_EQ(f.at_limit, std::vector<std::string>{"sigma"});
+    EXPECT_EQ(f.errors.log, errors_of(make_model("oren_nayar", parse_settings(f.text)),
+                                      samples_of("eon reflectance=0.6 roughness=0.8"))
+                                .log);
+}
+
 // The best grey of a Lambertian fit in the cosine metric has a closed form: the weighted mean
 // sum w c^2 t / sum w c^2.
 TEST(Fit, LambertHasAClosedForm) {
@@ -141,6 +152,19 @@ TEST(Fit, Stops) {
     const ModelFit f = fit_model(find_evaluator("ward"), {}, samples_of("phong"), {.stop = &stop});
     EXPECT_FALSE(f.converged);
     EXPECT_TRUE(std::isfinite(f.errors.log));
+}
+
+// Each metric's fit is the best by that metric, though GGX's weight ends at its bound on felt.
+TEST(LongFit, EachMetricIsBestByItself) {
+    const std::filesystem::path file =
+        std::filesystem::path(NACRE_SHARED_DIR) / "data/brdf/merl/pink-felt.nbrdf.binary";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no reference data at " << file;
+    const TargetSamples s = samples_of(file.string());
+    for (const char* model : {"ggx", "cook_torrance distribution=ggx", "he_torrance"}) {
+        const ModelFit log = fit(model, s), cosine = fit(model, s, FitMetric::cosine);
+        EXPECT_LE(log.errors.log, cosine.errors.log * (1. + 1e-6)) << model;
+        EXPECT_LE(cosine.errors.cosine, log.errors.cosine * (1. + 1e-6)) << model;
+    }
 }
 
 TEST(FitPlan, Unknowns) {
