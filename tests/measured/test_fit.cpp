@@ -185,6 +185,18 @@ TEST(FitPlan, Unknowns) {
     EXPECT_THROW(names("ward beta=1", true), InputError);
 }
 
+TEST(FitPlan, Starts) {
+    const auto starts = [](const char* model) {
+        return plan_starts(plan_unknowns(find_evaluator(model).description(), {}, true));
+    };
+    // kd, ks, alpha: a quarter of the default and four times it, too.
+    EXPECT_EQ(starts("ward"), (std::vector<std::vector<double>>{
+                                  {0.5, 0.2, 0.1}, {0.5, 0.2, 0.025}, {0.5, 0.2, 0.4}}));
+    EXPECT_EQ(starts("lambert").size(), 1u);
+    EXPECT_EQ(starts("he_torrance").size(), 9u);  // sigma0 and tau
+    for (const auto& s : starts("eon")) EXPECT_LE(s[1], 1.);
+}
+
 TEST(FitSamples, WeightsAndAngles) {
     const TargetSamples s = samples_of("lambert reflectance=0.5");
     double sum = 0., c2 = 0.;
@@ -228,6 +240,9 @@ TEST(FitSamples, WrongTargets) {
     EXPECT_EQ(message([] { make_target("ward kd=0.9 ks=0.9"); }),
               "ward: kd + ks = 1.8 is out of range: must lie within [0, 1], lest energy appear "
               "from nowhere");
+    EXPECT_EQ(message([] { make_target(NACRE_SOURCE_DIR "/CMakeLists.txt"); }), NACRE_SOURCE_DIR
+              "/CMakeLists.txt: only BRDFs of MERL's format can be read, whose names end in "
+              ".binary");
     EXPECT_EQ(message([] { make_target("felt.binary"); }),
               "felt.binary: cannot be read; check the name");
 }

@@ -64,6 +64,10 @@ std::unique_ptr<Target> make_target(const std::string& text) {
     const std::filesystem::path path(text);
     if (path.extension() == ".binary")
         return std::make_unique<MerlTarget>(read_merl(path), path.filename().string());
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored))
+        throw InputError(fmt::format(
+            "{}: only BRDFs of MERL's format can be read, whose names end in .binary", text));
     const ModelSpec spec = parse_model_spec(text);
     return std::make_unique<ModelTarget>(make_model(spec.name, spec.settings), text);
 }
