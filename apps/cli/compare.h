@@ -13,7 +13,7 @@ namespace nacre::cli {
 struct CompareOptions {
     SceneInput input;
     std::string techniques = "all", reference = "volpath", reference_error = "0.5%";
-    std::string samples = "16", suite, cases, models, target, peers, keep;
+    std::string samples = "16", suite, cases, models, target, metric = "log", peers, keep;
     std::filesystem::path output = "report";
     int repeats = 3, threads = 0;
     std::uint64_t seed = 0;
@@ -23,6 +23,7 @@ struct CompareOptions {
 /// What the options say about an experiment; throws InputError for what they get wrong.
 ExperimentOptions experiment_options(const CompareOptions& o);
 
+int compare_models(const CompareOptions& o, const CLI::App& app, const Invocation& invocation);
 int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation& invocation);
 int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation& invocation);
 

@@ -15,9 +15,18 @@ int run(const CompareOptions& o, const CLI::App& app, const Invocation& invocati
     };
     at_least("--repeats", o.repeats, 2);
     at_least("--threads", o.threads, 1);
+    for (const char* option : {"--fit-to", "--metric"})
+        if (app.count(option) && !app.count("--models"))
+            throw InputError(fmt::format("{} belongs to --models, which is missing", option));
+    if (app.count("--models") && app.count("--suite"))
+        throw InputError("give either --models or --suite");
+    if (app.count("--models")) return compare_models(o, app, invocation);
     if (!o.suite.empty()) return compare_suite(o, app, invocation);
     if (!o.cases.empty()) throw InputError("--cases belongs to --suite, which is missing");
-    return compare_scene(o, app, invocation);
+    CompareOptions scene = o;
+    // All techniques and the reference in a few minutes on two cores.
+    if (o.input.scene == "demo" && o.input.size.empty()) scene.input.size = "240x320";
+    return compare_scene(scene, app, invocation);
 }
 
 }  // namespace
@@ -48,6 +57,13 @@ Action set_up_compare(CLI::App& app, const Invocation& invocation) {
     app.add_option("--cases", o->cases,
                    "of the suite only these: words of objects, albedo, matter and light, such as "
                    "ball,bust,front");
+    app.add_option("--models", o->models,
+                   "reflectance models instead of techniques, separated by commas; settings follow "
+                   "a name: 'ward variant=duer,ggx'");
+    app.add_option("--fit-to", o->target,
+                   "what the models are fitted to: a measured BRDF of MERL (.binary) or a model "
+                   "with settings, 'cook_torrance m=0.2'");
+    app.add_option("--metric", o->metric, "of the fit: log or cosine")->capture_default_str();
     app.add_option("--keep", o->keep,
                    "folder where references are kept (default: the user's cache)");
     app.add_flag("--fresh", o->fresh, "use nothing that was kept");

@@ -102,9 +102,8 @@ TEST_F(CompareVerb, CtrlCKeepsWhatIsFinished) {
             !freopen("empty", "w", stdout))
             _exit(99);
         execl(NACRE_BINARY, NACRE_BINARY, "compare", "ball.xml", "--techniques",
-              "brdf,surface:profile=dipole", "--spp", "4000", "--repeats", "2",
-              "--reference-error", "0.3", "--keep", "kept", "-o", "report",
-              static_cast<char*>(nullptr));
+              "brdf,surface:profile=dipole", "--spp", "4000", "--repeats", "2", "--reference-error",
+              "0.3", "--keep", "kept", "-o", "report", static_cast<char*>(nullptr));
         _exit(98);
     }
     for (int i = 0; i < 2400 && read(folder_ / "stderr").find("[3/3]") == std::string::npos; ++i)

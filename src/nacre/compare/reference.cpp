@@ -152,7 +152,10 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
             needed = sum.samples * ratio * ratio;
             reference.reached = reference.error <= options.error;
         }
-        if (options.progress) options.progress(std::min(1., sum.samples / needed), reference.error);
+        // What is needed is an estimate: nothing is finished before the noise is small enough.
+        if (options.progress)
+            options.progress(reference.reached ? 1 : std::min(0.99, sum.samples / needed),
+                             reference.error);
         if (reference.reached || stopped()) break;
         // The estimate of the noise is noisy itself: it may at most double what there is.
         double n = std::clamp(std::ceil(1.02 * needed) - sum.samples, 4.,
@@ -166,7 +169,7 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
         if (options.progress)
             render_options.progress = [&](const RenderProgress& p) {
                 const double now = sum.samples + n * double(p.done) / double(p.total);
-                options.progress(std::min(1., now / std::max(needed, now)), reference.error);
+                options.progress(std::min(0.99, now / needed), reference.error);
             };
         const RenderResult result = render_with(scene, make_technique_integrator, render_options);
         if (!result.complete) break;

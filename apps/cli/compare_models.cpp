@@ -1,0 +1,99 @@
+// nacre compare --models: reflectance models, each fitted to one target.
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/compare.h"
+#include "apps/cli/interrupt.h"
+#include "nacre/compare/model_document.h"
+#include "nacre/compare/report.h"
+#include "nacre/compare/report_experiment.h"
+#include "nacre/math/error.h"
+
+namespace nacre::cli {
+namespace {
+
+/// "ward variant=duer,ggx": what begins like a number goes on with the colour before the comma.
+std::vector<ModelSpec> parse_models(const std::string& text) {
+    std::vector<std::string> items;
+    for (std::string word : parse_names(text)) {
+        const bool number = !std::isalpha(static_cast<unsigned char>(word[0]));
+        std::ranges::replace(word, ':', ' ');
+        if (number && !items.empty())
+            items.back() += "," + word;
+        else
+            items.push_back(word);
+    }
+    if (items.empty()) throw InputError("--models: no model is named; see 'nacre models'");
+    std::vector<ModelSpec> specs;
+    for (const std::string& item : items) specs.push_back(parse_model_spec(item));
+    return specs;
+}
+
+FitMetric parse_metric(const std::string& text) {
+    if (text == "log") return FitMetric::log;
+    if (text == "cosine") return FitMetric::cosine;
+    throw InputError(fmt::format("--metric: '{}' is unknown; known are: log, cosine", text));
+}
+
+void print_table(const ModelComparison& c) {
+    fmt::print("{:<36} {:>9} {:>9} {:>9}  {}\n", "", "error", "log error", "albedo", "parameters");
+    for (const ComparedModel& m : c.models) {
+        if (m.fit)
+            fmt::print("{:<36} {:>7.2f} % {:>7.2f} % {:>7.2f} %  {}\n", m.id,
+                       100 * m.fit->errors.cosine_relative, 100 * m.fit->errors.log_relative,
+                       100 * m.albedo_difference, m.fit->text);
+        else
+            fmt::print("{:<36} {}\n", m.id, m.why.empty() ? "not run" : "failed: " + m.why);
+    }
+}
+
+}  // namespace
+
+int compare_models(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
+    if (o.target.empty())
+        throw InputError(
+            "--models needs --fit-to: a measured BRDF (.binary) or a model, 'ggx alpha=0.2'");
+    for (const char* option : {"scene", "-D", "--size", "--mode", "--material", "--height-mm",
+                               "--techniques", "--spp", "--reference", "--repeats"})
+        if (app.count(option))
+            throw InputError(fmt::format("{} has no meaning for --models", option));
+    const std::vector<ModelSpec> models = parse_models(o.models);
+    const std::unique_ptr<Target> target = make_target(o.target);
+    const std::atomic<bool>& stop = interrupt_flag();
+    ModelComparisonOptions options;
+    options.metric = parse_metric(o.metric);
+    options.threads = o.threads;
+    options.stop = &stop;
+    const ModelComparison c = [&] {
+        PartProgress progress(o.quiet);
+        options.progress = [&](const std::string& model, int done, int total) {
+            if (done < total) progress.show({model, done + 1, total, 0, ""});
+        };
+        return nacre::compare_models(models, *target, options);
+    }();
+    nlohmann::ordered_json document = describe(c);
+    document["command"] = invocation.command_line;
+    for (auto& fact : common_facts(build_id(), o.threads)) document["facts"].push_back(fact);
+    for (const auto& [name, image] : c.pictures) {
+        document["pictures"][name] = rgbe_picture(image);
+        std::string file = name;
+        std::ranges::replace(file, ' ', '_');
+        std::ranges::replace(file, '/', '_');
+        std::filesystem::create_directories(o.output / "pictures");
+        write_image(image, o.output / "pictures" / (file + ".exr"));
+    }
+    write_report(document, o.output);
+    if (!o.quiet) print_table(c);
+    fmt::print("{}\n",
+               std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
+    if (!c.complete) {
+        fmt::print(stderr, "nacre: interrupted: models without numbers were not fitted\n");
+        return interrupted;
+    }
+    const bool failed = std::ranges::any_of(
+        c.models, [](const ComparedModel& m) { return m.status == ComparedModel::Status::failed; });
+    return failed ? failure : success;
+}
+
+}  // namespace nacre::cli
