@@ -60,7 +60,7 @@ Vec3d sphere_radiance(const BandBrdf& brdf, const BrdfPortrait& p, double x, dou
 }
 
 Image draw_sphere(const BandBrdf& brdf, const BrdfPortrait& p) {
-    constexpr int size = 160;
+    constexpr int size = 320;
     constexpr double radius = 0.47 * size;
     Image image(size, size);
     tbb::parallel_for(0, size, [&](int y) {

@@ -36,7 +36,7 @@ struct BrdfPortrait {
     std::array<std::vector<Vec3d>, 3> lobes;
     /// 90 x 90 pixels, pi f: theta_h from 0 to 90 degrees to the right, theta_d upwards.
     Image slice;
-    /// 160 x 160 pixels: an orthographic sphere, seen along the normal at its middle, in a light of
+    /// 320 x 320 pixels: an orthographic sphere, seen along the normal at its middle, in a light of
     /// irradiance pi from the upper left, 45 degrees off the view, and of radiance 0.1 from
     /// everywhere. The former is evaluated, without its mirrored part; for the latter the albedo of
     /// the viewer's direction stands, which is exact for reciprocal models. A white matt surface
