@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "nacre/bssrdf/profile.h"
 #include "nacre/compare/report_experiment.h"
@@ -17,8 +18,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double near_mfp = 0.03, far_mfp = 20;  // transport mean free paths that are shown
+constexpr double near_mfp = 0.03, far_mfp = 12;  // transport mean free paths that are shown
 constexpr int points = 60;
+
+/// Light that leaves between r and r + dr, over dr, in mm^-1: the area below a curve is light.
+double per_length(double r, double density) { return 2 * std::numbers::pi * r * density; }
 
 std::vector<std::string> profiles_of(const std::vector<ExperimentRow>& rows) {
     std::vector<std::string> names;
@@ -37,8 +41,7 @@ ordered_json analytic(const std::string& name, const ProfileMedium& medium, doub
     ordered_json list = ordered_json::array();
     for (int i = 0; i <= points; ++i) {
         const double r = mfp * near_mfp * std::pow(far_mfp / near_mfp, double(i) / points);
-        const double value = profile->eval(r);
-        if (value > 0) list.push_back({r, value});
+        list.push_back({r, per_length(r, profile->eval(r))});
     }
     return {{"name", name}, {"points", list}};
 }
@@ -69,7 +72,7 @@ ordered_json simulated(const ProfileMedium& medium, double mfp) {
         const double inner = first * width, outer = last * width;
         // The radius that halves the ring's area.
         const double at = std::sqrt(0.5 * (inner * inner + outer * outer));
-        if (power > 0) list.push_back({at, power / area / entered});
+        if (power > 0) list.push_back({at, per_length(at, power / area / entered)});
         first = last;
     }
     return {{"name", "simulation"}, {"reference", true}, {"points", list}};
@@ -102,16 +105,17 @@ ordered_json profile_chart(const Scene& scene, const std::vector<ExperimentRow>&
     return {
         {"id", "profiles"},
         {"title", "Diffusion profiles"},
-        {"text", fmt::format("How much of the light that entered a flat half space of '{}' at one "
-                             "point leaves at a distance, {}: the profiles beside a simulation of "
-                             "a narrow beam that falls in along the normal. The simulation holds "
-                             "light that was scattered once; most profiles leave it to a term of "
-                             "its own. Transport mean free path {:.3g} mm.",
-                             shape->name,
-                             scene.mode == ColorMode::rgb_bands ? "green band" : "600 nm", mfp)},
+        {"text",
+         fmt::format(
+             "How much of the light that entered a flat half space of '{}' at one "
+             "point leaves at a distance r, 2 pi r R(r), {}: the profiles beside a simulation of "
+             "a narrow beam that falls in along the normal. The simulation holds "
+             "light that was scattered once; most profiles leave it to a term of "
+             "its own. Transport mean free path {:.3g} mm.",
+             shape->name, scene.mode == ColorMode::rgb_bands ? "green band" : "600 nm", mfp)},
         {"kind", "lines"},
         {"x", {{"title", "distance"}, {"unit", "mm"}, {"log", true}}},
-        {"y", {{"title", "R(r)"}, {"unit", "mm⁻²"}, {"log", true}}},
+        {"y", {{"title", "2πr R(r)"}, {"unit", "mm⁻¹"}, {"log", false}}},
         {"series", series}};
 }
 

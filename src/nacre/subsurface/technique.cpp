@@ -59,9 +59,10 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "tables of the profile",
      .may_change = "view, light, geometry",
      .profiles = "all",
+     // The six Gaussians are those of skin whatever the medium: only who asks for them gets them.
      .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
                  "profile=photon_beam_diffusion|profile=normalised_diffusion|"
-                 "profile=gaussian_sum|profile=multipole",
+                 "profile=multipole",
      .make = make_surface_sampling},
     {.name = "random_walk",
      .title = "random walk from surface albedo",

@@ -45,6 +45,12 @@ function section(id, title, ...children) {
         el("h2", {id: `title-${id}`}, title), ...children);
 }
 
+// Text that may be broken after _ = and commas, where long settings should.
+function breakable(text) {
+    return String(text).split(/([_=,])/).flatMap(
+        (part, i, parts) => i % 2 ? [] : i + 1 < parts.length ? [part + parts[i + 1], el("wbr")] : [part]);
+}
+
 function label(row) { return row.setting ? `${row.name} ${row.setting}` : row.name; }
 
 // Words of a number with a unit; digits as the column says, unless nothing would be left of the value.

@@ -1,4 +1,4 @@
-// Error against time, both logarithmic: every setting a point, the settings of one technique joined.
+// Error against time, both logarithmic: every setting a point, the settings of one technique that differ in a number joined.
 
 const plotState = {
     x: null,
@@ -71,7 +71,8 @@ function drawPlot() {
         area.append(svg("path", {class: "curve", d, stroke: style(row.name).colour, "data-name": row.name}));
     }
     for (const [name, group] of byName(points)) {
-        if (group.length < 2) continue;
+        // Words, such as the names of profiles, are in no order that a line could follow.
+        if (group.length < 2 || !group.every(row => /=[-.\d]+/.test(row.setting ?? ""))) continue;
         const sorted = [...group].sort((a, b) => at(a, keyX) - at(b, keyX));
         area.append(svg("path", {
             class: "join",

@@ -4,7 +4,7 @@ function caption(source) {
     if (!source.row) return el("span", {class: "caption"}, "reference");
     return el(
         "span", {class: "caption"}, markerIcon(source.row.name), "\u00a0", source.row.name,
-        source.row.setting && el("small", {}, ` ${source.row.setting}`));
+        source.row.setting && [" ", el("small", {}, breakable(source.row.setting))]);
 }
 
 // For every picture a card with a tile a crop; one crop alone is shown larger.

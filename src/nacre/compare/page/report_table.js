@@ -9,7 +9,7 @@ function tableSection() {
     if (!rows.length) return null;
     const nameHead = el(
         "th", {scope: "col", "data-key": "name", class: "name"}, el("button", {type: "button"}, kindOfRow()));
-    const heads = columns.map(column => {
+    const heads = shownColumns().map(column => {
         const head =
             el("th", {scope: "col", "data-key": column.key, class: column.text ? "text" : "number"},
                el("button", {type: "button"},
@@ -61,13 +61,16 @@ function tableSection() {
         tableNotes());
 }
 
+// Hidden ones are only for the diagram.
+function shownColumns() { return columns.filter(column => !column.hidden); }
+
 function kindOfRow() { return report.kind === "models" ? "Model" : "Technique"; }
 
 function tableRow(row, best) {
     const name = [
         markerIcon(row.name),
         el("span", {class: "names"},
-           el("span", {}, row.name, row.setting && el("small", {}, ` ${row.setting}`)),
+           el("span", {}, row.name, row.setting && [" ", el("small", {}, breakable(row.setting))]),
            row.title && row.title !== row.name && el("small", {class: "long"}, row.title),
            row.peer && el("small", {class: "tag"}, "another renderer"))
     ];
@@ -88,11 +91,11 @@ function tableRow(row, best) {
            head);
     if (row.status !== "ok") {
         line.append(
-            el("td", {colspan: Math.max(1, columns.length), class: "why"},
+            el("td", {colspan: Math.max(1, shownColumns().length), class: "why"},
                el("span", {}, el("strong", {}, row.status === "missing" ? "Not run. " : "Failed. "),
                   row.why ?? "")));
     } else {
-        line.append(...columns.map(column => cell(row, column, best.get(column.key)?.has(row.id))));
+        line.append(...shownColumns().map(column => cell(row, column, best.get(column.key)?.has(row.id))));
     }
     if (shows) {
         line.addEventListener("click", () => {
@@ -110,7 +113,7 @@ function cell(row, column, isBest) {
         return el(
             "td", {class: column.text ? "text" : "number"},
             el("span", {class: "none", "aria-label": "not known"}, "–"));
-    if (column.text) return el("td", {class: "text"}, String(value));
+    if (column.text) return el("td", {class: "text"}, breakable(value));
     const error = row.errors?.[column.key], range = row.ranges?.[column.key];
     const node =
         el("td", {class: `number${isBest ? " best" : ""}`},
@@ -166,7 +169,7 @@ function sorted() {
 }
 
 function tableNotes() {
-    const helped = columns.filter(column => column.help);
+    const helped = shownColumns().filter(column => column.help);
     const marks = [];  // text, whether it helps on paper too
     if (bestOf().size)
         marks.push([
