@@ -236,13 +236,12 @@ Scene make_suite_scene(const SuiteCase& which, int width, int height, bool even)
     add(root, shape);
     BuildContext context;
     context.meshes[shape.get()] = make_suite_object(which.object);
-    Scene scene = build_scene(*root, context, ColorMode::rgb_bands);
+    Scene scene = build_scene(root, context, ColorMode::rgb_bands);
     if (which.matter == "veined") {
         make_veined(scene, even);
         // For the key: the voxels are in no node.
         set(root, "matter", "string", std::string(even ? "even 1" : "veined 1"));
     }
-    scene.root = root;
     return scene;
 }
 

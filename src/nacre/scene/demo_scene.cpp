@@ -115,10 +115,9 @@ Scene make_demo_scene(int width, int height) {
     // Two and a half pixels a cell: the normals are smooth.
     context.meshes[figure.get()] = std::make_shared<Mesh>(
         make_figure(std::clamp(1050.f / static_cast<float>(height), 1.2f, 1.6f)));
-    Scene scene = build_scene(*root, context, ColorMode::rgb_bands);
+    Scene scene = build_scene(root, context, ColorMode::rgb_bands);
     scene.lights.push_back(studio(0.5f * length(scene.rays.bounds().diagonal())));
     scene.environment = scene.lights.back().get();
-    scene.root = root;
     return scene;
 }
 

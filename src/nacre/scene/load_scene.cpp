@@ -146,8 +146,11 @@ const Medium* add_medium(const SceneNode& node, Scene& scene, BuildContext& cont
     return medium.get();
 }
 
-Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<ColorMode> mode) {
+Scene build_scene(const SceneNodePtr& tree, BuildContext& context, std::optional<ColorMode> mode) {
+    const SceneNode& root = *tree;
     Scene scene;
+    scene.root = tree;
+    scene.search_path = context.search_path;
     scene.mm_per_unit = root.get_float("mm_per_unit", 1.0);
     if (!(scene.mm_per_unit > 0.0))
         root.fail_at("mm_per_unit",
@@ -175,7 +178,6 @@ Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<Co
 
     scene.mode = mode.value_or(any_spectral(scene) ? ColorMode::spectral : ColorMode::rgb_bands);
     scene.warnings = context.warnings;
-    scene.search_path = context.search_path;
     return scene;
 }
 
@@ -184,9 +186,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     context.film_width = options.width;
     context.film_height = options.height;
     const SceneNodePtr root = read_scene_xml(file, options.defines, context.search_path);
-    Scene scene = build_scene(*root, context, options.mode);
-    scene.root = root;
-    return scene;
+    return build_scene(root, context, options.mode);
 }
 
 }  // namespace nacre

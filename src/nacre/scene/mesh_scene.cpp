@@ -165,9 +165,7 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
 
     BuildContext context;
     context.meshes[shape.get()] = object;
-    Scene scene = build_scene(*root, context, options.mode);
-    scene.root = root;
-    return scene;
+    return build_scene(root, context, options.mode);
 }
 
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {

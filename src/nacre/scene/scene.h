@@ -84,8 +84,8 @@ struct Scene {
     SamplerSettings sampler;
     IntegratorSettings integrator;
     std::vector<std::string> warnings;
-    /// What it was built from, and where its files were looked for: for those who tell scenes apart
-    /// (content_key.h) or hand them to other renderers. Null if it was put together by hand.
+    /// What it was built from, for those who write it for other programs; its <shape> children, in
+    /// order, are `shapes`. Files that it names are in the first of these folders that has them.
     std::shared_ptr<const SceneNode> root;
     std::vector<std::filesystem::path> search_path;
 };

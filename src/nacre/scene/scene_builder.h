@@ -36,6 +36,6 @@ void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_materi
                      BuildContext& context);
 
 /// Builds everything. `mode` unset: RGB bands unless something in the scene is spectral.
-Scene build_scene(const SceneNode& root, BuildContext& context, std::optional<ColorMode> mode);
+Scene build_scene(const SceneNodePtr& root, BuildContext& context, std::optional<ColorMode> mode);
 
 }  // namespace nacre
