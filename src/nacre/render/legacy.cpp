@@ -7,6 +7,7 @@
 #include "nacre/math/lanes_math.h"
 #include "nacre/math/warp.h"
 #include "nacre/optics/fresnel.h"
+#include "nacre/render/shadow_ray.h"
 
 namespace nacre {
 
@@ -75,7 +76,8 @@ Spectral LegacyShading::visibility(const SurfacePoint& from, const LightSample& 
                                    const Wavelengths& w, RayCounts& counts) const {
     Spectral kept(1.f);
     if (!settings_->shadows) return kept;
-    Ray ray{from.spawn(light.wi), light.wi, 0.f, light.distance * (1.f - shadow_margin)};
+    const ShadowRay shadow = shadow_ray(from, light);
+    Ray ray{shadow.origin, shadow.direction, 0.f, shadow.distance * (1.f - shadow_margin)};
     while (ray.tmax > 0.f) {
         ++counts.rays;
         const auto hit = scene_.rays.intersect(ray);

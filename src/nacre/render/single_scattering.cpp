@@ -48,8 +48,10 @@ Spectral SingleScatteringTerm::radiance(const SurfacePoint& exit, const Vec3f& w
     const float cos_i = dot(light.wi, entry.shading.n);
     if (!(cos_i > 0.f) || !(dot(light.wi, entry.ng) > 0.f)) return Spectral(0.f);
     const float mu_i = refracted_cosine(cos_i, eta_);
-    const Spectral kept = surface_transmittance(scene_, has_null_, entry.spawn(light.wi), light.wi,
-                                                light.distance - hit->t, w, counts);
+    const Point3f outside = entry.spawn(light.wi);
+    const Spectral kept =
+        surface_transmittance(scene_, has_null_, outside, light.wi,
+                              light.distance - dot(outside - p, light.wi), w, counts);
     if (!(max_lane(kept) > 0.f)) return Spectral(0.f);
 
     const float s_i = refracted_light_distance(hit->t, cos_i, eta_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nacre/render/roulette.h"
+#include "nacre/render/shadow_ray.h"
 
 namespace nacre {
 
@@ -145,8 +146,10 @@ Spectral SurfacePath::direct_light(const SurfacePoint& at, const Material& mater
     const bool alone = light.delta || tracer_.recursive_only_ ||
                        tracer_.estimators_ == PathTracer::Estimators::light_only;
     const float material_pdf = alone ? 0.f : material.pdf(at, wo, wi, wavelengths_);
-    const Spectral kept = surface_transmittance(scene_, tracer_.has_null_, at.spawn(light.wi),
-                                                light.wi, light.distance, wavelengths_, counts_);
+    const ShadowRay shadow = shadow_ray(at, light);
+    const Spectral kept =
+        surface_transmittance(scene_, tracer_.has_null_, shadow.origin, shadow.direction,
+                              shadow.distance, wavelengths_, counts_);
     return f * light.radiance * kept / Spectral(light_pdf + material_pdf);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nacre/optics/fresnel.h"
+#include "nacre/render/shadow_ray.h"
 #include "nacre/render/volume_path.h"
 #include "nacre/render/walk.h"
 
@@ -42,12 +43,12 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Material* materi
     Spectral f;
     float own_pdf;
     const Medium* medium = medium_;
-    Point3f origin = from;
+    ShadowRay shadow{from, light.wi, light.distance};
     if (at) {
         const Vec3f wi = at->shading.to_local(light.wi);
         f = material->eval(*at, wo, wi, wavelengths_);
         own_pdf = material->pdf(*at, wo, wi, wavelengths_);
-        origin = at->spawn(light.wi);
+        shadow = shadow_ray(*at, light);
         const ShapeBinding& shape = scene_.shapes[at->shape];
         if (shape.separates_media)
             medium = dot(light.wi, at->ng) > 0.f ? shape.exterior : shape.interior;
@@ -56,7 +57,7 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Material* materi
         f = Spectral(own_pdf);
     }
     if (!(max_lane(f) > 0.f)) return;
-    const Connection c = connection(origin, light.wi, light.distance, medium);
+    const Connection c = connection(shadow.origin, shadow.direction, shadow.distance, medium);
     if (!(max_lane(c.kept) > 0.f)) return;
     const float light_pdf = light.pdf * choice.probability;
     const float density = mean_of(
