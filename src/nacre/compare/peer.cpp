@@ -44,6 +44,11 @@ const PeerDescription& find_peer(std::string_view name) {
     return catalogue[i];
 }
 
+void Substitutions::add(std::string sentence) {
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
+        sentences.push_back(std::move(sentence));
+}
+
 void throw_absent(std::string_view title, std::string_view how_to_install) {
     throw InputError(
         fmt::format("{} is not installed; install it with: {}", title, how_to_install));

@@ -17,11 +17,13 @@ void turn_over(Image& image) {
                 std::swap(image.at(x, y, c), image.at(image.width - 1 - x, y, c));
 }
 
-PeerResult run(const PeerRequest& request, const std::string& name, bool random_walk) {
+PeerResult run(const PeerRequest& asked, const std::string& name, bool random_walk) {
     const PeerDescription& peer = find_peer(name);
-    const auto blender = find_blender(request.search_path);
+    const auto blender = find_blender(asked.search_path);
     if (!blender) throw_absent("Blender", peer.how_to_install);
-    check_comparable(request.scene, "Blender Cycles");
+    check_comparable(asked.scene, "Blender Cycles");
+    PeerRequest request = asked;
+    request.folder = std::filesystem::absolute(asked.folder);
     std::filesystem::create_directories(request.folder);
     Substitutions substitutions;
     const nlohmann::json scene = cycles_scene(

@@ -2,12 +2,11 @@
 #include <fmt/format.h>
 
 #include "nacre/bssrdf/profile.h"
+#include "nacre/compare/peer_albedo.h"
 #include "nacre/compare/peer_cycles_scene.h"
 #include "nacre/compare/peer_mesh.h"
-#include "nacre/math/warp.h"
 #include "nacre/optics/fresnel.h"
 #include "nacre/optics/fresnel_moments.h"
-#include "nacre/render/sampler.h"
 #include "nacre/scene/material_index.h"
 #include "nacre/scene/material_microfacet.h"
 #include "nacre/scene/subsurface.h"
@@ -49,36 +48,10 @@ bool has_two_sides(std::string_view type) {
 
 }  // namespace
 
-void Substitutions::add(std::string sentence) {
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end())
-        sentences.push_back(std::move(sentence));
-}
-
 json color_and_strength(const Vec3f& rgb) {
     const float strength = std::max({rgb.x, rgb.y, rgb.z, 0.f});
     return {{"color", triple(strength > 0.f ? rgb * (1.f / strength) : Vec3f{1.f, 1.f, 1.f})},
             {"strength", strength}};
-}
-
-Vec3f mean_albedo(const Material& material) {
-    constexpr int samples = 4096;
-    const Wavelengths w = Wavelengths::rgb_bands();
-    Sampler sampler(Sampler::Kind::sobol, 0, samples);
-    SurfacePoint at{};
-    at.ng = {0.f, 0.f, 1.f};
-    at.shading = Framef::around(at.ng);
-    at.uv = {0.5f, 0.5f};
-    Vec3d sum{};
-    for (int i = 0; i < samples; ++i) {
-        sampler.start(0, std::uint32_t(i));
-        const Vec3f wo = square_to_cosine_hemisphere(sampler.next2d());
-        const float u1 = sampler.next1d();
-        const auto s = material.sample(at, wo, u1, sampler.next2d(), w);
-        if (s && s->wi.z > 0.f) sum += Vec3d(bands(s->weight));
-    }
-    const Vec3f mean(sum * (1.0 / samples));
-    return {std::clamp(mean.x, 0.f, 1.f), std::clamp(mean.y, 0.f, 1.f),
-            std::clamp(mean.z, 0.f, 1.f)};
 }
 
 CyclesMaterials::CyclesMaterials(const Scene& scene, std::filesystem::path folder, bool random_walk,

@@ -2,18 +2,11 @@
 // A scene as the Cycles job (peer_cycles_job.h) takes it. Used by the peer Cycles only.
 #include <nlohmann/json.hpp>
 
-#include "nacre/compare/peer.h"
+#include "nacre/compare/peer_job.h"
 #include "nacre/compare/peer_view.h"
 #include "nacre/scene/build.h"
 
 namespace nacre {
-
-/// Sentences about what was replaced, each once.
-class Substitutions {
-  public:
-    void add(std::string sentence);
-    std::vector<std::string> sentences;
-};
 
 /// Light of one colour as Blender takes it: a colour within [0, 1] and its strength.
 nlohmann::json color_and_strength(const Vec3f& rgb);
@@ -59,10 +52,6 @@ class CyclesMaterials {
     Mesh* mesh_ = nullptr;
     int images_ = 0;
 };
-
-/// Albedo of a material under uniform light, in linear RGB: what it reflects, not what it lets
-/// through.
-Vec3f mean_albedo(const Material& material);
 
 /// Writes meshes and images into `folder` and returns what goes into scene.json, for a picture
 /// file of that name.

@@ -4,6 +4,13 @@
 
 namespace nacre {
 
+/// Sentences about what was replaced, each once.
+class Substitutions {
+  public:
+    void add(std::string sentence);
+    std::vector<std::string> sentences;
+};
+
 /// The one line that says that a peer is not installed.
 [[noreturn]] void throw_absent(std::string_view title, std::string_view how_to_install);
 
