@@ -123,8 +123,7 @@ TEST_F(Peer, SuccessWithoutAPictureIsAFailure) {
     EXPECT_THROW(find_peer("cycles").run(asked), RunError);
 }
 
-TEST_F(Peer, StopEndsTheProgramAndItsChildren) {
-    // The child ignores the polite signal, as a shell does while it waits for another program.
+TEST_F(Peer, StopEndsAProgramThatDoesNotListen) {
     write_program("blender", "trap '' TERM; sleep 60 & sleep 60");
     const Scene scene = load(plane);
     std::atomic<bool> stop = false;
@@ -309,7 +308,7 @@ TEST_F(Peer, MitsubaRunsTheFileItselfWhereItCan) {
     again.scene_file = folder_ / "scene.xml";
     EXPECT_TRUE(mitsuba_scene(again, said_).same_as_file);
     LoadOptions smaller;
-    smaller.width = smaller.height = 8;
+    smaller.width = 8, smaller.height = 576;
     const Scene resized = load_scene(folder_ / "scene.xml", smaller);
     PeerRequest third = request(resized);
     third.scene_file = folder_ / "scene.xml";
@@ -344,6 +343,22 @@ TEST_F(Peer, MitsubaGetsWhatItKnows) {
     const auto mesh = load_mesh(shapes[1]->node->get_string("filename"));
     EXPECT_EQ(mesh->triangles.size(), scene.rays.mesh(1)->triangles.size());
     EXPECT_EQ(mesh->normals.size(), mesh->positions.size());
+}
+
+TEST_F(Peer, CyclesGetsTheEnvironmentAsBlenderMapsIt) {
+    Image sky(8, 5);  // red above, where y > 0, and green below
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 8; ++x) sky.at(x, y, y < 2 ? 0 : 1) = 2.f;
+    write_image(sky, folder_ / "sky.exr");
+    const Scene scene =
+        load(R"(<emitter type="envmap"><string name="filename" value="sky.exr"/></emitter>)");
+    EXPECT_EQ(cycles(scene)["environment"]["image"], "environment.exr");
+    const Image seen = read_image(folder_ / "job/environment.exr");
+    ASSERT_EQ(seen.width, 1024);
+    ASSERT_EQ(seen.height, 512);
+    // Blender's picture has +x in its middle, +y in the middle of its left half and +z at its top.
+    EXPECT_EQ(seen.rgb(256, 256), (Vec3f{2, 0, 0}));
+    EXPECT_EQ(seen.rgb(768, 256), (Vec3f{0, 2, 0}));
 }
 
 TEST_F(Peer, FlippedMeshesAreTurnedRound) {
