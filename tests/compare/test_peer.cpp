@@ -325,6 +325,8 @@ TEST_F(Peer, MitsubaGetsWhatItKnows) {
     const SceneNodePtr root = mitsuba(scene);
     EXPECT_FALSE(root->has("mm_per_unit"));
     EXPECT_FALSE(root->children_of("integrator")[0]->node->has("guided_exits"));
+    // Roulette would make media glare; the scene does not ask for it.
+    EXPECT_EQ(root->children_of("integrator")[0]->node->get_int("rr_depth", 0), 100000);
     const auto shapes = root->children_of("shape");
     ASSERT_EQ(shapes.size(), 2u);
     const SceneNode& ball = *shapes[0]->node;

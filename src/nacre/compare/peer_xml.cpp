@@ -67,7 +67,13 @@ class Writer {
         Element integrator = append_object(root, "integrator", simulates ? node->type : type);
         append_value(integrator, "integer", "max_depth",
                      std::to_string(scene_.integrator.max_depth));
-        append_value(integrator, "integer", "rr_depth", std::to_string(scene_.integrator.rr_depth));
+        // Mitsuba's roulette ends one path in twenty at every scattering, however bright: of the
+        // hundreds in a medium little would be left but rare, glaring paths. Unless the scene asks
+        // for it there is none.
+        const bool asked = node && node->has("rr_depth");
+        if (media && !asked) same_ = false;
+        append_value(integrator, "integer", "rr_depth",
+                     std::to_string(media && !asked ? 100'000 : scene_.integrator.rr_depth));
         if (scene_.integrator.hide_emitters)
             append_value(integrator, "boolean", "hide_emitters", "true");
     }
