@@ -55,7 +55,7 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
         throw InputError(
             "--models needs --fit-to: a measured BRDF (.binary) or a model, 'ggx alpha=0.2'");
     for (const char* option : {"scene", "-D", "--size", "--mode", "--material", "--height-mm",
-                               "--techniques", "--spp", "--reference", "--repeats"})
+                               "--techniques", "--spp", "--reference", "--repeats", "--peer"})
         if (app.count(option))
             throw InputError(fmt::format("{} has no meaning for --models", option));
     const std::vector<ModelSpec> models = parse_models(o.models);

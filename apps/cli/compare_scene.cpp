@@ -20,6 +20,15 @@ std::string title_of(const CompareOptions& o, const Experiment& e) {
     return fmt::format("{}: {} {} compared", name, n, n == 1 ? "technique" : "techniques");
 }
 
+PeerSource peer_source(const SceneInput& input, int samples) {
+    PeerSource source;
+    if (is_scene_file(input)) source.scene_file = input.scene;
+    for (const std::string& d : input.defines)
+        source.defines[d.substr(0, d.find('='))] = d.substr(d.find('=') + 1);
+    source.samples = samples;
+    return source;
+}
+
 void print_table(const Experiment& e) {
     fmt::print("{:<48} {:>17} {:>10} {:>9} {:>7} {:>9} {:>9} {:>8}\n", "", "systematic error",
                "brightness", "frame err", "FLIP", "frame", "before", "memory");
@@ -55,6 +64,14 @@ ExperimentOptions experiment_options(const CompareOptions& o) {
     options.folder = o.output / "pictures";
     options.build = build_id();
     options.fresh = o.fresh;
+    for (const std::string& name : parse_names(o.peers)) {
+        const PeerDescription& peer = find_peer(name);
+        // Better known now than after all the techniques.
+        if (!peer.find(""))
+            throw InputError(fmt::format("--peer: {} is not installed; install it with: {}",
+                                         peer.title, peer.how_to_install));
+        options.peers.push_back(&peer);
+    }
     return options;
 }
 
@@ -62,6 +79,7 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
     // What is wrong with the command line is said before anything is read.
     ExperimentOptions options = experiment_options(o);
     Scene scene = load(o.input, app);
+    options.peer_source = peer_source(o.input, options.settings.front().samples);
     for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;

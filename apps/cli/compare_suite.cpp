@@ -24,7 +24,7 @@ std::string folder_name(const SuiteCase& c) {
 int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
     if (o.suite != "translucency")
         throw InputError(fmt::format("--suite: '{}' is unknown; known are: translucency", o.suite));
-    for (const char* option : {"scene", "-D", "--mode", "--material", "--height-mm"})
+    for (const char* option : {"scene", "-D", "--mode", "--material", "--height-mm", "--peer"})
         if (app.count(option))
             throw InputError(fmt::format("--suite brings its own scenes: leave out {}", option));
     std::pair<int, int> size = suite_size;

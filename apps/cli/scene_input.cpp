@@ -60,6 +60,8 @@ void add_scene_options(CLI::App& app, SceneInput& input) {
     app.add_option("--height-mm", input.height_mm, "height of a bare mesh (default: 100)");
 }
 
+bool is_scene_file(const SceneInput& input) { return !is_demo(input) && is_scene(input.scene); }
+
 Scene load(const SceneInput& input, const CLI::App& app) {
     const std::filesystem::path file = input.scene;
     if (has_image_extension(file))

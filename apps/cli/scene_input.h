@@ -24,6 +24,9 @@ void add_scene_options(CLI::App& app, SceneInput& input);
 /// Loads it. Throws InputError for options that do not belong to this kind of scene.
 Scene load(const SceneInput& input, const CLI::App& app);
 
+/// Whether it is a scene file and not a mesh or the built-in scene.
+bool is_scene_file(const SceneInput& input);
+
 /// The words with which `nacre render` loads the same scene.
 std::string arguments_of(const SceneInput& input);
 

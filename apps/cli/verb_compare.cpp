@@ -53,6 +53,9 @@ Action set_up_compare(CLI::App& app, const Invocation& invocation) {
     app.add_option("--seed", o->seed, "of the random numbers (0)");
     app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
     add_scene_options(app, o->input);
+    app.add_option("--peer", o->peers,
+                   "other renderers on this machine: cycles, cycles_random_walk, mitsuba; several "
+                   "separated by commas");
     app.add_option("--suite", o->suite, "translucency: the project's own 60 scenes instead of one");
     app.add_option("--cases", o->cases,
                    "of the suite only these: words of objects, albedo, matter and light, such as "

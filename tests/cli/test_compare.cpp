@@ -137,6 +137,11 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
          "the suite has no 'cube'; its words are: ball, sheet, bowl, bust, slab, high, low, "
          "homogeneous, veined, front, side, back"},
         {"compare ball.xml --suite translucency", "--suite brings its own scenes: leave out scene"},
+        {"compare ball.xml --peer blendr", "unknown peer \"blendr\""},
+        {"compare --models ward", "--models needs --fit-to"},
+        {"compare --fit-to ggx", "--fit-to belongs to --models, which is missing"},
+        {"compare --models ward --fit-to ggx --spp 4", "--spp has no meaning for --models"},
+        {"compare --models wardd --fit-to ggx", "ward"},
         {"compare ball.xml --material marble",
          "ball.xml: --material is for bare meshes; a scene says itself what its shapes are"},
     };

@@ -136,6 +136,58 @@ TEST_F(ExperimentTest, DamagedPartsAreMeasuredAgain) {
     EXPECT_FALSE(read_measurement("key", file));
 }
 
+/// Another renderer: what it says of itself is in its row, and its failure is its own.
+TEST_F(ExperimentTest, APeerIsMeasuredLikeATechnique) {
+    PeerDescription good;
+    good.name = "good";
+    good.title = "Good";
+    good.run = [](const PeerRequest& r) {
+        PeerResult result;
+        result.picture = Image(24, 24, {"R", "G", "B", "A"});
+        for (float& v : result.picture.data) v = 0.25f;
+        result.picture.at(0, 0, 0) = r.seed % 2 ? 1.f : 0.f;
+        result.seconds = 2;
+        result.wall_seconds = 5;
+        result.peak_mb = 100;
+        result.version = "Good 1.2";
+        result.substitutions = {"the floor is flat"};
+        EXPECT_EQ(r.samples, 7);
+        EXPECT_EQ(r.scene_file, "a.xml");
+        return result;
+    };
+    PeerDescription bad = good;
+    bad.name = "bad";
+    bad.run = [](const PeerRequest&) {
+        PeerResult result;
+        result.picture = Image(3, 2);
+        return result;
+    };
+    Scene s = ball(24);
+    ExperimentOptions o = experiment_options("brdf");
+    o.peers = {&good, &bad};
+    o.peer_source = {"a.xml", {}, 7};
+    const Experiment e = run_experiment(s, o);
+    ASSERT_EQ(e.rows.size(), 3u);
+    const Measurement& m = e.rows[1].measurement;
+    EXPECT_EQ(m.id, "good 7 spp");
+    ASSERT_EQ(m.status, Status::done) << m.why;
+    EXPECT_EQ(m.median_of(&Timing::frame), 2);
+    EXPECT_EQ(m.median_of(&Timing::precompute), 3);
+    EXPECT_NEAR(m.memory_mb, 104.8576, 1e-9);
+    EXPECT_EQ(m.mean.at(5, 5, 1), 0.25f);
+    EXPECT_EQ(m.program, "Good 1.2");
+    EXPECT_EQ(m.notes, std::vector<std::string>{"the floor is flat"});
+    EXPECT_TRUE(e.rows[1].verdict);
+    EXPECT_EQ(e.rows[2].measurement.status, Status::failed);
+    EXPECT_EQ(e.rows[2].measurement.why, "its picture has 3 x 2 pixels instead of 24 x 24");
+    EXPECT_TRUE(e.any_failed());
+    // Kept like the others, with what it said.
+    const Experiment again = run_experiment(s, o);
+    EXPECT_TRUE(again.rows[1].measurement.reused);
+    EXPECT_EQ(again.rows[1].measurement.notes, m.notes);
+    EXPECT_EQ(again.rows[1].measurement.program, m.program);
+}
+
 TEST_F(ExperimentTest, OneRepeatIsTooFew) {
     Scene s = ball(8);
     EXPECT_EQ(error_of([&] {

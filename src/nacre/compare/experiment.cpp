@@ -12,17 +12,34 @@ namespace nacre {
 namespace {
 
 /// What a part is known by: everything that its pictures and times depend on, but the machine.
-std::string key_of(const std::string& scene_key, const Scene& scene,
-                   const TechniqueSetting& setting, const ExperimentOptions& o) {
-    return fmt::format("{} {} sampler {} repeats {} seed {} threads {} build {}", scene_key,
-                       setting.id(), scene.sampler.type, o.repeats, o.seed, o.threads, o.build);
+std::string key_of(const std::string& scene_key, const Scene& scene, const std::string& id,
+                   const ExperimentOptions& o) {
+    return fmt::format("{} {} sampler {} repeats {} seed {} threads {} build {}", scene_key, id,
+                       scene.sampler.type, o.repeats, o.seed, o.threads, o.build);
 }
 
-std::filesystem::path file_of(const ExperimentOptions& o, const TechniqueSetting& setting) {
-    std::string name = setting.id();
-    std::ranges::replace(name, '/', '_');
-    std::ranges::replace(name, ' ', '_');
-    return o.folder / (name + ".exr");
+std::filesystem::path file_of(const ExperimentOptions& o, std::string id) {
+    if (o.folder.empty()) return {};
+    std::ranges::replace(id, '/', '_');
+    std::ranges::replace(id, ' ', '_');
+    return o.folder / (id + ".exr");
+}
+
+Measurement measure_row(const ExperimentRow& row, Scene& scene, const ExperimentOptions& o,
+                        const std::function<void(double)>& progress) {
+    const MeasurementOptions options{.repeats = o.repeats,
+                                     .seed = o.seed,
+                                     .threads = o.threads,
+                                     .stop = o.stop,
+                                     .progress = progress};
+    if (row.peer) {
+        const std::filesystem::path jobs =
+            o.folder.empty() ? std::filesystem::temp_directory_path() / "nacre_peer" : o.folder;
+        return measure_peer(scene, *row.peer, o.peer_source, jobs / std::string(row.peer->name),
+                            options);
+    }
+    const bool simulates = !find_technique(row.setting.choice.technique).make;
+    return measure(o.simplified && !simulates ? *o.simplified : scene, row.setting, options);
 }
 
 }  // namespace
@@ -63,7 +80,7 @@ PixelMask translucent_pixels(const Scene& scene, bool& object_only) {
 Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
     Experiment e;
     e.mask = translucent_pixels(scene, e.object_only);
-    const int parts = int(o.settings.size()) + 1;
+    const int parts = int(o.settings.size() + o.peers.size()) + 1;
     const auto report = [&](const std::string& what, int part, double share,
                             std::string note = "") {
         if (o.progress) o.progress({what, part, parts, share, std::move(note)});
@@ -78,8 +95,12 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
     };
     e.reference = make_reference(scene, e.mask, reference);
     for (const TechniqueSetting& setting : o.settings) {
-        e.rows.push_back({setting, {}, {}, {}});
+        e.rows.emplace_back().setting = setting;
         e.rows.back().measurement.id = setting.id();
+    }
+    for (const PeerDescription* peer : o.peers) {
+        e.rows.emplace_back().peer = peer;
+        e.rows.back().measurement.id = peer_id(*peer, o.peer_source.samples);
     }
     if (!e.reference.reached) return e;
 
@@ -87,10 +108,9 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
     if (!o.folder.empty()) std::filesystem::create_directories(o.folder);
     for (int i = 0; i < int(e.rows.size()); ++i) {
         ExperimentRow& row = e.rows[i];
-        const std::string key = key_of(scene_key, scene, row.setting, o);
-        const std::string id = row.setting.id();
-        const std::filesystem::path file =
-            o.folder.empty() ? std::filesystem::path() : file_of(o, row.setting);
+        const std::string id = row.measurement.id;
+        const std::string key = key_of(scene_key, scene, id, o);
+        const std::filesystem::path file = file_of(o, id);
         report(id, i + 2, 0);
         std::optional<Measurement> kept;
         if (!o.fresh && !file.empty()) kept = read_measurement(key, file);
@@ -98,12 +118,8 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
             row.measurement = std::move(*kept);
             report(id, i + 2, 1, "kept from before");
         } else {
-            MeasurementOptions options{
-                .repeats = o.repeats, .seed = o.seed, .threads = o.threads, .stop = o.stop};
-            options.progress = [&](double share) { report(id, i + 2, share); };
-            const bool simulates = !find_technique(row.setting.choice.technique).make;
-            Scene& rendered = o.simplified && !simulates ? *o.simplified : scene;
-            row.measurement = measure(rendered, row.setting, options);
+            row.measurement =
+                measure_row(row, scene, o, [&](double share) { report(id, i + 2, share); });
             if (row.measurement.status == Measurement::Status::missing) return e;
         }
         if (row.measurement.status != Measurement::Status::done) continue;

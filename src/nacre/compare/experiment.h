@@ -1,5 +1,6 @@
 #pragma once
 // The experiment: a scene, its reference, and every technique at every setting.
+#include "nacre/compare/measure_peer.h"
 #include "nacre/compare/measurement.h"
 #include "nacre/compare/reference.h"
 #include "nacre/compare/verdict.h"
@@ -15,6 +16,8 @@ struct ExperimentProgress {
 
 struct ExperimentOptions {
     std::vector<TechniqueSetting> settings;
+    std::vector<const PeerDescription*> peers;  ///< other renderers, after the techniques
+    PeerSource peer_source;
     ReferenceOptions reference;  ///< stop, threads and progress are taken from here
     int repeats = 3;
     std::uint64_t seed = 0;
@@ -31,7 +34,8 @@ struct ExperimentOptions {
 };
 
 struct ExperimentRow {
-    TechniqueSetting setting;
+    TechniqueSetting setting;               ///< of a technique
+    const PeerDescription* peer = nullptr;  ///< or another renderer
     Measurement measurement;
     std::optional<Verdict> verdict;  ///< if it is done
     std::filesystem::path file;      ///< of its pictures, if there is one

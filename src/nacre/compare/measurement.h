@@ -29,7 +29,10 @@ struct Measurement {
     double memory_mb = 0;         ///< the most that was held beyond the scene
     Statistics statistics;        ///< of the first repeat
     std::uint64_t invalid_samples = 0;
-    int samples = 0;      ///< a pixel and repeat
+    // Of another renderer: its version, what was run, and what was replaced for it.
+    std::string program, command;
+    std::vector<std::string> notes;
+    int samples = 0;
     bool reused = false;  ///< read from a file
 
     int repeats() const { return static_cast<int>(timings.size()); }

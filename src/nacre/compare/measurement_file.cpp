@@ -20,6 +20,9 @@ json numbers_of(const Measurement& m, const std::string& key) {
            {"invalid_samples", m.invalid_samples}};
     for (const Timing& t : m.timings)
         j["timings"].push_back({t.frame, t.frame_cpu, t.precompute, t.precompute_cpu});
+    j["program"] = m.program;
+    j["command"] = m.command;
+    j["notes"] = m.notes;
     j["statistics"] = json::array();
     for (const Statistic& s : m.statistics) j["statistics"].push_back({s.name, s.value, s.unit});
     return j;
@@ -30,6 +33,9 @@ void set_numbers(Measurement& m, const json& j) {
     m.samples = j.at("samples");
     m.memory_mb = j.at("memory_mb");
     m.invalid_samples = j.at("invalid_samples");
+    m.program = j.at("program");
+    m.command = j.at("command");
+    m.notes = j.at("notes").get<std::vector<std::string>>();
     for (const json& t : j.at("timings")) m.timings.push_back({t[0], t[1], t[2], t[3]});
     for (const json& s : j.at("statistics")) m.statistics.push_back({s[0], s[1], s[2]});
 }

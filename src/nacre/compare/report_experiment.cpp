@@ -108,6 +108,19 @@ ordered_json about(const TechniqueDescription& t, const Measurement& m) {
     return list;
 }
 
+ordered_json about_peer(const Measurement& m) {
+    ordered_json list = ordered_json::array();
+    const auto add = [&](const char* name, const std::string& text) {
+        if (!text.empty()) list.push_back({name, text});
+    };
+    add("Version", m.program);
+    add("What was run", m.command);
+    add("Samples a pixel", fmt::to_string(m.samples));
+    for (const std::string& note : m.notes) add("Replaced", note);
+    if (m.reused) add("Measured", "before; the pictures were kept");
+    return list;
+}
+
 const char* status_of(const Measurement& m) {
     switch (m.status) {
         case Measurement::Status::done:
@@ -120,9 +133,30 @@ const char* status_of(const Measurement& m) {
     return "missing";
 }
 
+ordered_json describe_peer_row(const ExperimentRow& row) {
+    const Measurement& m = row.measurement;
+    ordered_json r{{"id", m.id},
+                   {"name", std::string(row.peer->name)},
+                   {"setting", fmt::format("{} spp", m.samples)},
+                   {"title", std::string(row.peer->title)},
+                   {"peer", true},
+                   {"status", status_of(m)}};
+    if (!m.why.empty()) r["why"] = m.why;
+    if (row.verdict) {
+        add_numbers(r, m, *row.verdict);
+        r["values"].erase("cpu");  // not known
+        r["picture"] = m.id;
+        r["flip"] = m.id;
+    }
+    r["values"]["changes"] = "start-up and loading count as before";
+    r["about"] = about_peer(m);
+    return r;
+}
+
 ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin,
                           bool several_samples) {
     const Measurement& m = row.measurement;
+    if (row.peer) return describe_peer_row(row);
     const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
     std::string setting = row.setting.options();
     if (several_samples)
@@ -217,10 +251,15 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
             "The comparison was interrupted: rows without numbers were not run. The same command "
             "goes on where it stopped.");
     d["notes"] = notes();
+    for (const ExperimentRow& row : e.rows)
+        if (row.peer && !row.measurement.notes.empty())
+            d["notes"].push_back(
+                {{"title", fmt::format("What was replaced for {}", row.peer->title)},
+                 {"text", fmt::format("{}", fmt::join(row.measurement.notes, "\n\n"))}});
     d["columns"] = columns();
 
     const bool several = std::ranges::any_of(e.rows, [&](const ExperimentRow& r) {
-        return r.setting.samples != e.rows.front().setting.samples;
+        return !r.peer && r.setting.samples != e.rows.front().setting.samples;
     });
     std::vector<const Image*> pictures;
     d["rows"] = ordered_json::array();

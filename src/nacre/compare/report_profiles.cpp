@@ -27,6 +27,7 @@ double per_length(double r, double density) { return 2 * std::numbers::pi * r * 
 std::vector<std::string> profiles_of(const std::vector<ExperimentRow>& rows) {
     std::vector<std::string> names;
     for (const ExperimentRow& row : rows) {
+        if (row.peer) continue;
         const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
         if (technique.profiles.empty()) continue;
         const std::string& chosen = row.setting.choice.profile;

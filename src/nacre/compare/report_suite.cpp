@@ -156,6 +156,7 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
     r.reference_error = e.reference.error;
     r.reference_cpu_seconds = e.reference.cpu_seconds;
     for (const ExperimentRow& row : e.rows) {
+        if (row.peer) continue;
         const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
         SuiteCell cell{.id = row.measurement.id,
                        .title = std::string(technique.title),
