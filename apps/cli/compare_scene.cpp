@@ -1,6 +1,7 @@
 // nacre compare SCENE: every technique on one scene.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
@@ -16,8 +17,17 @@ std::string title_of(const CompareOptions& o, const Experiment& e) {
     const std::string name = o.input.scene == "demo"
                                  ? "The built-in bust"
                                  : std::filesystem::path(o.input.scene).stem().string();
-    const auto n = e.rows.size();
-    return fmt::format("{}: {} {} compared", name, n, n == 1 ? "technique" : "techniques");
+    std::set<std::string> techniques, peers;
+    for (const ExperimentRow& row : e.rows)
+        if (row.peer)
+            peers.emplace(row.peer->name);
+        else
+            techniques.insert(row.setting.choice.technique);
+    const auto count = [](std::size_t n, const char* what) {
+        return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    return fmt::format("{}: {}{}", name, count(techniques.size(), "technique"),
+                       peers.empty() ? "" : " and " + count(peers.size(), "other renderer"));
 }
 
 PeerSource peer_source(const SceneInput& input, int samples) {

@@ -32,8 +32,11 @@ int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation
     const std::vector<SuiteCase> cases = suite_cases(o.cases);
     ExperimentOptions options = experiment_options(o);
     if (!app.count("--spp")) options.settings = parse_techniques(o.techniques, {8});
-    if (!app.count("--reference-error")) options.reference.error = 0.02;
+    if (!app.count("--reference-error")) options.reference.error = 0.03;
     if (!app.count("--repeats")) options.repeats = 2;
+    for (const TechniqueSetting& s : options.settings)
+        if (s.samples != options.settings.front().samples)
+            throw InputError("--suite takes one number of samples; give one to --spp");
     options.block = suite_block;
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;

@@ -136,6 +136,8 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
         {"compare --suite translucency --cases cube",
          "the suite has no 'cube'; its words are: ball, sheet, bowl, bust, slab, high, low, "
          "homogeneous, veined, front, side, back"},
+        {"compare --suite translucency --spp 4,8",
+         "--suite takes one number of samples; give one to --spp"},
         {"compare ball.xml --suite translucency", "--suite brings its own scenes: leave out scene"},
         {"compare ball.xml --peer blendr", "unknown peer \"blendr\""},
         {"compare --models ward", "--models needs --fit-to"},

@@ -1,5 +1,6 @@
 // Known bias and known noise are told apart.
 #include "nacre/compare/crops.h"
+#include "nacre/compare/flip.h"
 #include "nacre/compare/verdict.h"
 #include "tests/compare/experiment_fixture.h"
 
@@ -56,6 +57,13 @@ TEST(Verdict, TakesOffTheNoiseOfTheReference) {
     // One standard error of the mean square of what noise adds is 0.009^2.
     EXPECT_LT(v.pixel_systematic, 0.03);
     EXPECT_LE(v.systematic.value, 3.5 * v.systematic.sigma);
+}
+
+/// One sees a frame and not the mean of the repeats.
+TEST(Verdict, FlipIsThatOfAFrame) {
+    const Measurement m = made_up(size, 1, 0, 0.3, 4, 2);
+    EXPECT_EQ(judge(m, constant(1), constant(0), {}).flip, flip_hdr(m.frame, constant(1)).mean);
+    EXPECT_GT(flip_hdr(m.frame, constant(1)).mean, 1.3 * flip_hdr(m.mean, constant(1)).mean);
 }
 
 TEST(Verdict, CountsOnlyWhatTheMaskLeaves) {

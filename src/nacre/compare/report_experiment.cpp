@@ -116,6 +116,7 @@ ordered_json about_peer(const Measurement& m) {
     add("Version", m.program);
     add("What was run", m.command);
     add("Samples a pixel", fmt::to_string(m.samples));
+    add("Before the frame", "start-up, loading and writing");
     for (const std::string& note : m.notes) add("Replaced", note);
     if (m.reused) add("Measured", "before; the pictures were kept");
     return list;
@@ -148,7 +149,6 @@ ordered_json describe_peer_row(const ExperimentRow& row) {
         r["picture"] = m.id;
         r["flip"] = m.id;
     }
-    r["values"]["changes"] = "start-up and loading count as before";
     r["about"] = about_peer(m);
     return r;
 }

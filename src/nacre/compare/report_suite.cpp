@@ -158,7 +158,9 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
     for (const ExperimentRow& row : e.rows) {
         if (row.peer) continue;
         const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
-        SuiteCell cell{.id = row.measurement.id,
+        // All have the same number of samples, which stands above.
+        const std::string options = row.setting.options();
+        SuiteCell cell{.id = row.setting.choice.technique + (options.empty() ? "" : " " + options),
                        .title = std::string(technique.title),
                        .why = row.measurement.why,
                        .may_change = std::string(technique.may_change)};
