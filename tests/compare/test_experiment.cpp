@@ -57,6 +57,8 @@ TEST_F(ExperimentTest, EveryTechniqueGetsARowAndIsTakenUpAgain) {
     EXPECT_FALSE(run_experiment(s, other).rows[0].measurement.reused);
     other = o;
     other.fresh = true;
+    EXPECT_FALSE(run_experiment(s, o).rows[0].measurement.reused);  // they had been overwritten
+    EXPECT_TRUE(run_experiment(s, o).rows[0].measurement.reused);
     EXPECT_FALSE(run_experiment(s, other).rows[0].measurement.reused);
     Scene darker = ball(24, "0.5, 0.6, 0.6");
     EXPECT_FALSE(run_experiment(darker, o).rows[0].measurement.reused);

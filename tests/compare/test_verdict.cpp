@@ -95,6 +95,9 @@ TEST(Crops, AreWhereThePicturesDiffer) {
             EXPECT_TRUE(std::abs(crops[i].x - crops[j].x) >= 24 ||
                         std::abs(crops[i].y - crops[j].y) >= 24);
     }
+    // Where nothing counts nobody needs to look, even if nothing differs elsewhere.
+    const PixelMask right(size, size, [](int x, int) { return x >= 40; });
+    for (const Crop& c : telling_crops({&picture}, constant(1), right, 3)) EXPECT_GE(c.x, 28);
     const PixelMask left(size, size, [](int x, int) { return x < 20; });
     for (const Crop& c : telling_crops({&picture}, constant(1), left, 3)) EXPECT_LE(c.x, 8);
 }

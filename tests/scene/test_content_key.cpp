@@ -1,5 +1,6 @@
 #include "nacre/scene/content_key.h"
 
+#include "nacre/geometry/mesh_build.h"
 #include "nacre/scene/demo_scene.h"
 #include "tests/scene/scene_files.h"
 
@@ -49,6 +50,12 @@ TEST_F(ContentKey, IsThatOfWhatIsSeen) {
 TEST_F(ContentKey, OfScenesWithoutAFile) {
     EXPECT_EQ(content_key(make_demo_scene(30, 40)), content_key(make_demo_scene(30, 40)));
     EXPECT_NE(content_key(make_demo_scene(30, 40)), content_key(make_demo_scene(40, 40)));
+    // Two meshes of one size, one with a dent.
+    auto round = std::make_shared<Mesh>(make_icosphere(2)), dented = std::make_shared<Mesh>(*round);
+    for (Point3f& p : dented->positions)
+        if (p.x > 0.5f && p.y > 0.5f) p = p * 0.8f;
+    EXPECT_EQ(content_key(make_mesh_scene(round, {})), content_key(make_mesh_scene(round, {})));
+    EXPECT_NE(content_key(make_mesh_scene(round, {})), content_key(make_mesh_scene(dented, {})));
     EXPECT_EQ(error_of([] { content_key(Scene()); }),
               "the scene was put together by hand: there is nothing to make a key of");
 }

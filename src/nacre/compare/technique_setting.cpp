@@ -100,17 +100,10 @@ std::vector<TechniqueSetting> parse_techniques(std::string_view list,
 WithSetting::WithSetting(Scene& scene, const TechniqueChoice& choice)
     : scene_(scene), integrator_(scene.integrator), sampler_(scene.sampler) {
     for (const ShapeBinding& s : scene.shapes) subsurface_.push_back(s.subsurface);
-    try {
-        choose_technique(scene, choice);
-    } catch (...) {
-        restore();
-        throw;
-    }
+    choose_technique(scene, choice);  // throws before it changes anything
 }
 
-WithSetting::~WithSetting() { restore(); }
-
-void WithSetting::restore() {
+WithSetting::~WithSetting() {
     scene_.integrator = integrator_;
     scene_.sampler = sampler_;
     for (std::size_t i = 0; i < subsurface_.size(); ++i)

@@ -37,8 +37,6 @@ class WithSetting {
     WithSetting& operator=(const WithSetting&) = delete;
 
   private:
-    void restore();
-
     Scene& scene_;
     IntegratorSettings integrator_;
     SamplerSettings sampler_;
