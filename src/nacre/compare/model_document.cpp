@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "nacre/compare/report.h"
+
 namespace nacre {
 namespace {
 
@@ -10,35 +12,31 @@ using Json = nlohmann::ordered_json;
 /// Six digits are enough for people, and keep the page small.
 double brief(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : x; }
 
-Json column(const char* key, const char* title, const char* unit, int digits, const char* better,
-            const char* help) {
-    return {{"key", key},       {"title", title},   {"unit", unit},
-            {"digits", digits}, {"better", better}, {"help", help}};
-}
-Json text_column(const char* key, const char* title, const char* help) {
-    return {{"key", key}, {"title", title}, {"text", true}, {"help", help}};
-}
-
 Json columns() {
     return {
-        column(
+        number_column(
             "error", "error", "%", 2, "low",
             "root mean square of the differences of f cos(theta_i), over that of the target: 100 "
             "is the error of black (Ngan et al. 2005)"),
-        column("log_error", "log error", "%", 2, "low",
-               "the same of log(1 + f cos(theta_i)), in which a sharp highlight does not decide "
-               "alone (Low et al. 2012, E2)"),
-        column("albedo_difference", "albedo difference", "%", 2, "low",
-               "root mean square of the differences of the directional albedo, up to 80 degrees, "
-               "in percent of a white surface"),
-        column("largest_albedo", "largest albedo", "", 3, "none",
-               "of the fitted model, over the angles of the diagram and the three bands; above 1 "
-               "energy appears from nowhere"),
+        number_column(
+            "log_error", "log error", "%", 2, "low",
+            "the same of log(1 + f cos(theta_i)), in which a sharp highlight does not decide "
+            "alone (Low et al. 2012, E2)"),
+        number_column(
+            "albedo_difference", "albedo difference", "%", 2, "low",
+            "root mean square of the differences of the directional albedo, up to 80 degrees, "
+            "in percent of a white surface"),
+        number_column(
+            "largest_albedo", "largest albedo", "", 3, "none",
+            "of the fitted model, over the angles of the diagram and the three bands; above 1 "
+            "energy appears from nowhere"),
         text_column("parameters", "fitted parameters", "colours are red,green,blue"),
-        column("fit", "fit", "s", 2, "low", "time of the fit, all starts"),
-        column("nanoseconds", "evaluation", "ns", 2, "low",
-               "time of one value at one wavelength, in packs of single precision on one thread"),
-        column("speed", "speed", "million/s", 1, "none", "values a second, the same measured"),
+        number_column("fit", "fit", "s", 2, "low", "time of the fit, all starts"),
+        number_column(
+            "nanoseconds", "evaluation", "ns", 2, "low",
+            "time of one value at one wavelength, in packs of single precision on one thread"),
+        number_column("speed", "speed", "million/s", 1, "none",
+                      "values a second, the same measured"),
         text_column("reciprocal", "reciprocal", "with these options, as the model's page says"),
         text_column("conserves", "conserves energy",
                     "for all parameters that these options allow, as the model's page says"),

@@ -139,6 +139,16 @@ Image shrunk(const Image& image, int side) {
     return small;
 }
 
+ordered_json number_column(const char* key, const char* title, const char* unit, int digits,
+                           const char* better, const char* help) {
+    return {{"key", key},       {"title", title},   {"unit", unit},
+            {"digits", digits}, {"better", better}, {"help", help}};
+}
+
+ordered_json text_column(const char* key, const char* title, const char* help) {
+    return {{"key", key}, {"title", title}, {"text", true}, {"help", help}};
+}
+
 void write_report(const ordered_json& document, const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);

@@ -19,6 +19,12 @@ nlohmann::ordered_json byte_map(const Image& image);
 /// Box-filtered so that neither side is above `side` pixels; as it is if it fits.
 Image shrunk(const Image& image, int side);
 
+/// A column of the table: of numbers, of which the lowest, those nearest to zero or none are best
+/// ("low", "zero", "none"), or of words.
+nlohmann::ordered_json number_column(const char* key, const char* title, const char* unit,
+                                     int digits, const char* better, const char* help);
+nlohmann::ordered_json text_column(const char* key, const char* title, const char* help);
+
 /// Writes index.html and report.json (without the pictures) into the folder, which is made if need
 /// be; each appears whole or not at all. Throws RunError if it cannot be written.
 void write_report(const nlohmann::ordered_json& document, const std::filesystem::path& folder);

@@ -15,46 +15,48 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Pictures of more pixels are shrunk for the page; the EXR files beside it have all. Two thirds of
-// a megapixel a technique make ten of them about 15 MB.
-constexpr int longest_side = 640;
+// A page of more pixels, all pictures together, would be larger than the 15 MB that mail takes:
+// they are shrunk, at 3.1 bytes a pixel with the map of FLIP. The EXR files beside it have all.
+constexpr double most_pixels = 4e6;
 
-ordered_json column(const char* key, const char* title, const char* unit, int digits,
-                    const char* better, const char* help) {
-    return {{"key", key},       {"title", title},   {"unit", unit},
-            {"digits", digits}, {"better", better}, {"help", help}};
+/// The longer side of the pictures on a page of so many of them.
+int side_on_page(const Image& picture, std::size_t pictures) {
+    const double pixels = double(picture.width) * picture.height * double(pictures);
+    return std::max(1, int(std::max(picture.width, picture.height) *
+                           std::min(1., std::sqrt(most_pixels / pixels))));
 }
 
 ordered_json columns() {
-    ordered_json changes = column("changes", "may change", "", 0, "none",
-                                  "what may change before anything is computed anew");
-    changes["text"] = true;
     const auto hidden = [](ordered_json c) {  // only for the diagram
         c["hidden"] = true;
         return c;
     };
     return {
-        column("systematic", "systematic error", "%", 2, "low",
-               "root mean square of the relative errors of blocks of 16 x 16 pixels, noise taken "
-               "off: what stays wrong however long it runs"),
-        column("bias", "brightness", "%", 2, "zero",
-               "mean over the object relative to the reference, minus 1"),
-        column(
+        number_column(
+            "systematic", "systematic error", "%", 2, "low",
+            "root mean square of the relative errors of blocks of 16 x 16 pixels, noise taken "
+            "off: what stays wrong however long it runs"),
+        number_column("bias", "brightness", "%", 2, "zero",
+                      "mean over the object relative to the reference, minus 1"),
+        number_column(
             "rms", "error of a frame", "%", 1, "low",
             "root of relMSE (epsilon 0.01) of one frame, pixel by pixel: what is wrong and noise"),
-        column("noise", "noise of a frame", "%", 1, "low",
-               "the part of the frame's error that is noise, from how the repeats differ"),
-        column(
+        number_column("noise", "noise of a frame", "%", 1, "low",
+                      "the part of the frame's error that is noise, from how the repeats differ"),
+        number_column(
             "flip", "HDR-FLIP", "", 3, "low",
             "how different one frame and the reference look when one flips between them, 0 to 1"),
-        column("frame", "frame", "s", 2, "low", "wall time of one frame, median of the repeats"),
-        column("precompute", "before", "s", 2, "low",
-               "wall time of precomputation before the first frame, median of the repeats"),
-        hidden(column("total", "first picture", "s", 2, "low", "precomputation and one frame")),
-        hidden(column("cpu", "CPU", "s", 2, "low", "CPU time of precomputation and one frame")),
-        column("memory", "memory", "MB", 0, "low",
-               "the most that was held beyond the scene itself"),
-        changes};
+        number_column("frame", "frame", "s", 2, "low",
+                      "wall time of one frame, median of the repeats"),
+        number_column("precompute", "before", "s", 2, "low",
+                      "wall time of precomputation before the first frame, median of the repeats"),
+        hidden(
+            number_column("total", "first picture", "s", 2, "low", "precomputation and one frame")),
+        hidden(
+            number_column("cpu", "CPU", "s", 2, "low", "CPU time of precomputation and one frame")),
+        number_column("memory", "memory", "MB", 0, "low",
+                      "the most that was held beyond the scene itself"),
+        text_column("changes", "may change", "what may change before anything is computed anew")};
 }
 
 void add_numbers(ordered_json& row, const Measurement& m, const Verdict& v) {
@@ -261,9 +263,12 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
     const bool several = std::ranges::any_of(e.rows, [&](const ExperimentRow& r) {
         return !r.peer && r.setting.samples != e.rows.front().setting.samples;
     });
+    const auto done =
+        std::ranges::count_if(e.rows, [](const ExperimentRow& r) { return r.verdict.has_value(); });
+    const int side = side_on_page(e.reference.picture, std::size_t(done) + 1);
     std::vector<const Image*> pictures;
     d["rows"] = ordered_json::array();
-    d["pictures"] = {{"reference", rgbe_picture(shrunk(e.reference.picture, longest_side))}};
+    d["pictures"] = {{"reference", rgbe_picture(shrunk(e.reference.picture, side))}};
     d["maps"] = ordered_json::object();
     for (const ExperimentRow& row : e.rows) {
         d["rows"].push_back(describe_row(row, origin, several));
@@ -272,9 +277,8 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
                                                 row.measurement.invalid_samples));
         if (!row.verdict) continue;
         pictures.push_back(&row.measurement.mean);
-        d["pictures"][row.measurement.id] =
-            rgbe_picture(shrunk(row.measurement.frame, longest_side));
-        d["maps"][row.measurement.id] = byte_map(shrunk(row.verdict->flip_map, longest_side));
+        d["pictures"][row.measurement.id] = rgbe_picture(shrunk(row.measurement.frame, side));
+        d["maps"][row.measurement.id] = byte_map(shrunk(row.verdict->flip_map, side));
     }
     d["reference"] = {{"title", std::string(find_technique(o.reference.technique.technique).title)},
                       {"picture", "reference"},
@@ -282,16 +286,15 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
                                     {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};
     d["plot"] = {{"x", {"total", "frame", "cpu"}}, {"y", {"rms", "systematic", "flip"}}};
     const Image& reference = e.reference.picture;
-    const double scale =
-        std::min(1., double(longest_side) / std::max(reference.width, reference.height));
+    const double scale = std::min(1., double(side) / std::max(reference.width, reference.height));
     d["crops"] = ordered_json::array();
     for (const Crop& c : telling_crops(pictures, reference, e.mask, 4)) {
-        const int side = std::max(1, int(c.side * scale));
+        const int window = std::max(1, int(c.side * scale));
         d["crops"].push_back({{"title", fmt::format("{}, {}", c.x, c.y)},
                               {"x", int(c.x * scale)},
                               {"y", int(c.y * scale)},
-                              {"width", side},
-                              {"height", side}});
+                              {"width", window},
+                              {"height", window}});
     }
     d["exposure"] = {{"start", 0.}};
     d["charts"] = ordered_json::array();

@@ -112,23 +112,17 @@ ordered_json summary_rows(const std::vector<SuiteResult>& results) {
 }
 
 ordered_json summary_columns() {
-    const auto column = [](const char* key, const char* title, const char* unit, int digits,
-                           const char* better, const char* help) {
-        return ordered_json{{"key", key},       {"title", title},   {"unit", unit},
-                            {"digits", digits}, {"better", better}, {"help", help}};
-    };
-    ordered_json changes =
-        column("changes", "may change", "", 0, "none", "before anything is computed anew");
-    changes["text"] = true;
-    return {
-        column("cases", "cases", "", 0, "none", "that have numbers"),
-        column("systematic", "systematic error", "%", 1, "low", "root mean square over the cases"),
-        column("worst", "worst case", "%", 1, "low", "the largest systematic error of a case"),
-        column("flip", "HDR-FLIP", "", 3, "low", "median over the cases"),
-        column("frame", "frame", "s", 2, "low", "median over the cases"),
-        column("precompute", "before", "s", 2, "low", "precomputation, median over the cases"),
-        column("memory", "memory", "MB", 0, "low", "median over the cases"),
-        changes};
+    return {number_column("cases", "cases", "", 0, "none", "that have numbers"),
+            number_column("systematic", "systematic error", "%", 1, "low",
+                          "root mean square over the cases"),
+            number_column("worst", "worst case", "%", 1, "low",
+                          "the largest systematic error of a case"),
+            number_column("flip", "HDR-FLIP", "", 3, "low", "median over the cases"),
+            number_column("frame", "frame", "s", 2, "low", "median over the cases"),
+            number_column("precompute", "before", "s", 2, "low",
+                          "precomputation, median over the cases"),
+            number_column("memory", "memory", "MB", 0, "low", "median over the cases"),
+            text_column("changes", "may change", "before anything is computed anew")};
 }
 
 ordered_json printed() {
