@@ -81,7 +81,10 @@ function drawMatrix() {
     const {measure, filters} = matrixState;
     const shown = cases.filter(one => [...filters].every(([i, value]) => one.labels?.[i] === value));
     const valueOf = (one, technique) => one.cells?.[technique.id]?.[measure.key];
-    const valuesOf = (list, technique) => list.map(one => valueOf(one, technique)).filter(Number.isFinite);
+    const isNoise = (one, technique) =>
+        Math.abs(valueOf(one, technique)) < 2 * (one.cells?.[technique.id]?.errors?.[measure.key] ?? 0);
+    const valuesOf = (list, technique) => list.map(one => isNoise(one, technique) ? 0 : valueOf(one, technique))
+                                              .filter(Number.isFinite);
     const summary = summaries[matrixState.summary][1];
     const summarise = (list, technique) => {
         const values = valuesOf(list, technique);
@@ -161,7 +164,7 @@ function drawMatrix() {
            `${
                report.matrix.title && measure === report.matrix.measures[0] ?
                    `${report.matrix.title}. ` :
-                   ""}Colours are logarithmic. – : no value; point at it for the reason.` +
+                   ""}Colours are logarithmic; grey: within two standard errors of nothing. – : no value; point at it for the reason.` +
                (partial ?
                     " In italics: summaries of only some of the cases; point at one to see of how many." :
                     "")));
@@ -175,14 +178,18 @@ function caseThumb(one) {
 function matrixCell(one, technique, value, heat) {
     const marks = {"data-case": one.id, "data-technique": technique.id};
     if (Number.isFinite(value)) {
+        const {digits, unit, key} = matrixState.measure;
+        const error = one.cells[technique.id].errors?.[key];
+        const noise = error > 0 && Math.abs(value) < 2 * error;  // may be nothing
         return el(
             "td", {
                 ...marks,
-                style: heat(value),
-                title: `${technique.title ?? technique.id}\n${one.id}\n${
-                    withUnit(number(value, matrixState.measure.digits), matrixState.measure.unit)}`
+                class: noise && "unsure",
+                style: noise ? null : heat(value),
+                title: `${technique.title ?? technique.id}\n${one.id}\n${withUnit(number(value, digits), unit)}${
+                    error > 0 ? ` ± ${number(error, digits)}${noise ? ": may be noise" : ""}` : ""}`
             },
-            number(value, matrixState.measure.digits));
+            number(value, digits));
     }
     const why = one.cells?.[technique.id]?.why;
     const node =
