@@ -17,7 +17,7 @@ struct CompareOptions {
     std::filesystem::path output = "report";
     int repeats = 3, threads = 0;
     std::uint64_t seed = 0;
-    bool fresh = false, quiet = false, json = false;
+    bool fresh = false, quiet = false;
 };
 
 /// What the options say about an experiment; throws InputError for what they get wrong.

@@ -45,16 +45,17 @@ TEST(BrdfPortrait, OfALambertian) {
         for (const Vec3d& f : lobe) EXPECT_NEAR(f.y, 0.5 / std::numbers::pi, 1e-6);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(p.slice.at(3, 70, c), want[c], 1e-6);
     // The sphere: a point with normal n has kd ([n.l]+ + 0.1), l the direction of the light.
-    const auto normal = [](int x, int y) {
-        const double u = (x + 0.5 - 80.) / 75.2, v = (80. - y - 0.5) / 75.2;
+    const double half = 0.5 * p.sphere.width, radius = 0.47 * p.sphere.width;
+    const auto normal = [&](int x, int y) {
+        const double u = (x + 0.5 - half) / radius, v = (half - y - 0.5) / radius;
         return Vec3d{u, v, std::sqrt(1. - u * u - v * v)};
     };
-    for (const auto& [x, y] : {std::pair{80, 80}, {50, 50}, {100, 60}, {60, 100}}) {
+    for (const auto& [x, y] : {std::pair{160, 160}, {100, 100}, {200, 120}, {120, 200}}) {
         const double lit = dot(normal(x, y), Vec3d{-0.5, 0.5, std::numbers::sqrt2 / 2.});
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(p.sphere.at(x, y, c), want[c] * (std::max(lit, 0.) + 0.1), 1e-3);
     }
-    EXPECT_NEAR(p.sphere.at(115, 125, 0), 0.08, 1e-5);  // in the shade
+    EXPECT_NEAR(p.sphere.at(230, 250, 0), 0.08, 1e-5);  // in the shade
     EXPECT_EQ(p.sphere.at(2, 2, 0), 0.f);
     EXPECT_NEAR(albedo_difference(p, make_portrait(bands_of(make_model(
                                          "lambert", parse_settings("reflectance=0.9,0.6,0.3"))))),

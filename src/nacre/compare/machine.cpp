@@ -12,7 +12,7 @@ namespace nacre {
 namespace {
 
 /// The text after "NAME" and blanks, tabs or colons in the first line that begins with it.
-std::string field(const char* file, const std::string& name) {
+std::string field(const std::string& file, const std::string& name) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);)
         if (line.starts_with(name)) {
@@ -22,9 +22,9 @@ std::string field(const char* file, const std::string& name) {
     return {};
 }
 
-/// A line of /proc/self/status, "VmHWM: 1234 kB", in MB.
-double status_mb(const char* name) {
-    const std::string text = field("/proc/self/status", name);
+/// A line of /proc/PROCESS/status, "VmHWM: 1234 kB", in MB.
+double status_mb(const char* name, const std::string& process = "self") {
+    const std::string text = field("/proc/" + process + "/status", name);
     return text.empty() ? 0 : std::stod(text) * 1024e-6;
 }
 
@@ -40,6 +40,8 @@ Machine this_machine() {
     if (uname(&name) == 0) m.system = std::string(name.sysname) + " " + name.release;
     return m;
 }
+
+double peak_memory_of(int process) { return status_mb("VmHWM", std::to_string(process)); }
 
 PeakMemory::PeakMemory() {
     malloc_trim(0);

@@ -10,8 +10,6 @@
 namespace nacre {
 namespace {
 
-constexpr double mib = 1.048576;  // in MB
-
 Image colors_of(const Image& picture, const Scene& scene) {
     const FilmSettings& film = scene.film;
     const int width = film.crop_width > 0 ? film.crop_width : film.width,
@@ -57,7 +55,7 @@ Measurement measure_peer(const Scene& scene, const PeerDescription& peer, const 
             const PeerResult r = peer.run(request);
             frames.push_back(colors_of(r.picture, scene));
             m.timings.push_back({r.seconds, 0, std::max(0., r.wall_seconds - r.seconds), 0});
-            m.memory_mb = std::max(m.memory_mb, r.peak_mb * mib);
+            m.memory_mb = std::max(m.memory_mb, r.peak_mb);
             m.program = r.version;
             m.command = r.command;
             m.notes = r.substitutions;

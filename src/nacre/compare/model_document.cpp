@@ -35,8 +35,6 @@ Json columns() {
         number_column(
             "nanoseconds", "evaluation", "ns", 2, "low",
             "time of one value at one wavelength, in packs of single precision on one thread"),
-        number_column("speed", "speed", "million/s", 1, "none",
-                      "values a second, the same measured"),
         text_column("reciprocal", "reciprocal", "with these options, as the model's page says"),
         text_column("conserves", "conserves energy",
                     "for all parameters that these options allow, as the model's page says"),
@@ -76,7 +74,6 @@ Json row(const ComparedModel& m) {
                            {"parameters", fit.text},
                            {"fit", brief(fit.seconds)},
                            {"nanoseconds", brief(1e3 * m.seconds_per_million)},
-                           {"speed", brief(1. / m.seconds_per_million)},
                            {"reciprocal", m.reciprocal ? "yes" : "no"},
                            {"conserves", m.energy == Energy::conserves ? "yes" : "no"}};
             r["picture"] = m.id;

@@ -35,7 +35,7 @@ struct PeerResult {
     Image picture;            ///< linear RGB, as nacre's film: its size, or that of its crop window
     double seconds = 0;       ///< of rendering alone, as the peer's job measures it
     double wall_seconds = 0;  ///< of the whole process
-    double peak_mb = 0;       ///< largest resident memory of the process, MiB
+    double peak_mb = 0;       ///< largest resident memory of the process, MB
     std::string version;      ///< of the peer
     std::string command;      ///< what was run
     /// What the peer could not do and what stands for it, a sentence each.

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include <fstream>
 #include <thread>
 
+#include "nacre/compare/machine.h"
 #include "nacre/math/error.h"
 
 extern char** environ;
@@ -78,15 +78,15 @@ ProcessResult run_process(const std::vector<std::string>& words, const fs::path&
     Clock::time_point asked;
     for (;;) {
         int status = 0;
-        rusage usage{};
-        const pid_t ended = wait4(child, &status, WNOHANG, &usage);
+        // Asked before it may have ended: what is gone cannot be asked.
+        result.peak_mb = std::max(result.peak_mb, peak_memory_of(child));
+        const pid_t ended = waitpid(child, &status, WNOHANG);
         if (ended < 0 && errno != EINTR)
             throw RunError(
                 fmt::format("{}: cannot be waited for: {}", words[0], std::strerror(errno)));
         if (ended == child) {
             result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
             result.seconds = seconds_since(start);
-            result.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KiB
             return result;
         }
         if (stop && *stop && !result.stopped) {

@@ -17,7 +17,7 @@ struct ProcessResult {
     int status = 0;  ///< exit status; 128 + signal if a signal ended it
     bool stopped = false;
     double seconds = 0;  ///< wall time
-    double peak_mb = 0;  ///< largest resident memory, MiB
+    double peak_mb = 0;  ///< largest resident memory of the program itself, MB
 };
 
 /// Runs a program; the first word is its path and no shell looks at the others. Its output and

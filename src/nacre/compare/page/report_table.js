@@ -113,7 +113,8 @@ function cell(row, column, isBest) {
         return el(
             "td", {class: column.text ? "text" : "number"},
             el("span", {class: "none", "aria-label": "not known"}, "–"));
-    if (column.text) return el("td", {class: "text"}, breakable(value));
+    if (column.text)
+        return el("td", {class: String(value).length > 40 ? "text long-text" : "text"}, breakable(value));
     const error = row.errors?.[column.key], range = row.ranges?.[column.key];
     const node =
         el("td", {class: `number${isBest ? " best" : ""}`},
