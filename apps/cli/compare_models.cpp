@@ -9,6 +9,7 @@
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
 namespace {
@@ -60,6 +61,8 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
             throw InputError(fmt::format("{} has no meaning for --models", option));
     const std::vector<ModelSpec> models = parse_models(o.models);
     const std::unique_ptr<Target> target = make_target(o.target);
+    check_models(models);
+    make_output_folder(o.output / "pictures");
     const std::atomic<bool>& stop = interrupt_flag();
     ModelComparisonOptions options;
     options.metric = parse_metric(o.metric);
@@ -80,7 +83,6 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
         std::string file = name;
         std::ranges::replace(file, ' ', '_');
         std::ranges::replace(file, '/', '_');
-        std::filesystem::create_directories(o.output / "pictures");
         write_image(image, o.output / "pictures" / (file + ".exr"));
     }
     write_report(document, o.output);

@@ -98,6 +98,10 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
         options.progress = [&](const ExperimentProgress& p) { progress.show(p); };
         return run_experiment(scene, options);
     }();
+    if (!e.reference.reached && e.reference.samples == 0) {
+        fmt::print(stderr, "nacre: interrupted before the reference's first round was done\n");
+        return interrupted;
+    }
     if (!e.reference.reached) {
         fmt::print(stderr,
                    "nacre: interrupted: the reference has a noise of {:.2f} % after {} samples a "

@@ -11,6 +11,16 @@
 #include "nacre/scene/scene_node.h"
 
 namespace nacre::cli {
+
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
+    if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+    std::string r = "'";
+    for (char c : word) r += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return r + "'";
+}
+
 namespace {
 
 constexpr Verb verbs[] = {
@@ -41,15 +51,6 @@ std::string usage() {
     for (const Verb& v : verbs) text += fmt::format("  {:<8} {}\n", v.name, v.summary);
     text += fmt::format("  {:<8} {}\n", "help", "this list, or the options of a verb: help VERB");
     return text + fmt::format("\n  --version  print the version\n\n{}\n", exit_codes);
-}
-
-std::string quoted(const std::string& word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
-    if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-    std::string r = "'";
-    for (char c : word) r += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return r + "'";
 }
 
 const Verb& find_verb(const std::string& name) {
@@ -84,7 +85,7 @@ void refuse_extras(const CLI::App& app) {
 int run(std::vector<std::string> args) {
     const Invocation invocation{[&] {
         std::string line = "nacre";
-        for (const std::string& a : args) line += " " + quoted(a);
+        for (const std::string& a : args) line += " " + shell_word(a);
         return line;
     }()};
     const std::string first = args.empty() ? "help" : args[0];

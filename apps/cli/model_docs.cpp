@@ -10,6 +10,7 @@
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
 namespace {
@@ -195,10 +196,10 @@ int write_model_docs(const fs::path& folder, DocsPart part, const Invocation& in
     if (error)
         throw RunError(
             fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-    write_text(folder / "README.md", index_text());
-    write_text(folder / "sphere.xml", sphere_scene);
+    write_whole_file(folder / "README.md", index_text());
+    write_whole_file(folder / "sphere.xml", sphere_scene);
     for (const ModelDescription* m : models()) {
-        write_text(folder / fmt::format("{}.md", m->name), page_text(*m));
+        write_whole_file(folder / fmt::format("{}.md", m->name), page_text(*m));
         if (part == DocsPart::all) write_pictures(*m, folder, invocation);
     }
     return success;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
 namespace {
@@ -117,17 +117,6 @@ void draw(const Table& table, const fs::path& path, const std::string& set_up) {
 
 }  // namespace
 
-void write_text(const fs::path& path, const std::string& text) {
-    const fs::path beside = path.string() + ".part";
-    {
-        std::ofstream out(beside, std::ios::binary);
-        out << text;
-        out.close();
-        if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
-    }
-    fs::rename(beside, path);
-}
-
 void check_table_output(const fs::path& path) {
     const std::string extension = path.extension().string();
     if (!path.empty() && extension != ".csv" && extension != ".svg" && extension != ".png")
@@ -143,7 +132,7 @@ void write_table(const Table& table, const fs::path& path) {
     check_table_output(path);
     const std::string extension = path.extension().string();
     fs::path csv = path;
-    write_text(csv.replace_extension(".csv"), csv_of(table));
+    write_whole_file(csv.replace_extension(".csv"), csv_of(table));
     if (extension == ".csv") return;
     draw(table, path,
          extension == ".svg"

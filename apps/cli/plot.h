@@ -35,7 +35,5 @@ void check_table_output(const std::filesystem::path& path);
 void write_table(const Table& table, const std::filesystem::path& path);
 /// A small picture alone, .svg, as pages show it. Throws RunError as write_table does.
 void draw_table(const Table& table, const std::filesystem::path& path);
-/// Writes a text file, whole or not at all. Throws RunError.
-void write_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace nacre::cli

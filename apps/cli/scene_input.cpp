@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/demo_scene.h"
 #include "nacre/scene/image.h"
@@ -41,10 +42,6 @@ std::map<std::string, std::string> parse_defines(const std::vector<std::string>&
 
 bool is_demo(const SceneInput& input) {
     return input.scene == demo && !std::filesystem::exists(demo);
-}
-
-std::string quoted(const std::string& word) {
-    return word.find_first_of(" '\"$&;()*?<>|\\") == word.npos ? word : "'" + word + "'";
 }
 
 }  // namespace
@@ -107,11 +104,11 @@ Scene load(const SceneInput& input, const CLI::App& app) {
 }
 
 std::string arguments_of(const SceneInput& input) {
-    std::string text = quoted(input.scene);
-    for (const std::string& d : input.defines) text += " -D " + quoted(d);
+    std::string text = shell_word(input.scene);
+    for (const std::string& d : input.defines) text += " -D " + shell_word(d);
     if (!input.size.empty()) text += " --size " + input.size;
     if (!input.mode.empty()) text += " --mode " + input.mode;
-    if (!input.material.empty()) text += " --material " + quoted(input.material);
+    if (!input.material.empty()) text += " --material " + shell_word(input.material);
     if (input.height_mm > 0) text += fmt::format(" --height-mm {:g}", input.height_mm);
     return text;
 }

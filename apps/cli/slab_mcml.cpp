@@ -8,6 +8,7 @@
 #include "apps/cli/verb.h"
 #include "nacre/layers/mcml_io.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
 namespace {
@@ -54,8 +55,8 @@ int run_mcml(const McmlJob& job) {
         McmlRun& run = runs[i];
         if (job.photons) run.photons = *job.photons;
         const SlabMonteCarloResult r = slab_monte_carlo(run.stack, run.options(job.seed));
-        write_text(files[i],
-                   files[i].extension() == ".csv" ? slab_csv(run.bins, r) : mco_text(run, r));
+        write_whole_file(files[i],
+                         files[i].extension() == ".csv" ? slab_csv(run.bins, r) : mco_text(run, r));
         const LayerTotals &t = r.totals, &e = r.error;
         fmt::print(
             "{}: R {:.6f} +- {:.1g} (specular {:.6f}), T {:.6f} +- {:.1g}, A {:.6f} +- {:.1g}\n",

@@ -25,6 +25,9 @@ struct Verb {
     Action (*set_up)(CLI::App& app, const Invocation& invocation);
 };
 
+/// A word as the shell takes it.
+std::string shell_word(const std::string& word);
+
 // Exit codes.
 inline constexpr int success = 0, failure = 1, wrong_input = 2, interrupted = 130;
 

@@ -7,6 +7,7 @@
 #include "apps/cli/slab_profiles.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
 namespace {
@@ -204,7 +205,7 @@ int run(const Options& o, const CLI::App& app) {
     else if (const std::vector<Row> rows = solve(task, methods); o.output.empty())
         print_totals(rows, o.json);
     else
-        write_text(o.output, csv_of(rows));
+        write_whole_file(o.output, csv_of(rows));
     return success;
 }
 

@@ -49,12 +49,19 @@ TEST_F(CompareVerb, WritesOnePageNumbersAndPictures) {
         for (const char* key : {"systematic", "bias", "rms", "noise", "flip", "frame", "memory"})
             EXPECT_TRUE(row["values"].contains(key)) << key;
     }
-    EXPECT_EQ(d["rows"][2]["command"],
-              "nacre render ball.xml --technique two_pass --set error=1 --spp 2 -o picture.exr");
-    // What the row says can be done.
+    // What the row says makes the frame that was measured, to the bit.
     std::string command = d["rows"][2]["command"];
+    EXPECT_EQ(command.substr(0, command.find(" --seed")),
+              "nacre render ball.xml --technique two_pass --set error=1 --spp 2");
     command.erase(0, std::string("nacre ").size());
-    EXPECT_EQ(nacre(command + " --quiet").code, 0);
+    ASSERT_EQ(nacre(command + " --quiet").code, 0);
+    const Image again = read_image(folder_ / "picture.exr"),
+                kept = read_image(folder_ / "report/pictures/two_pass_error=1_2_spp.exr");
+    for (int y = 0; y < again.height; ++y)
+        for (int x = 0; x < again.width; ++x)
+            for (const char* c : {"R", "G", "B"})
+                ASSERT_EQ(again.at(x, y, again.channel(c)),
+                          kept.at(x, y, kept.channel(std::string("frame.") + c)));
     for (const auto& fact : d["facts"]) EXPECT_TRUE(fact.is_array() && fact.size() == 2) << fact;
 
     // The page holds its document, and nothing that must be fetched.
@@ -120,6 +127,49 @@ TEST_F(CompareVerb, CtrlCKeepsWhatIsFinished) {
     EXPECT_TRUE(fs::exists(folder_ / "report/pictures/brdf_profile=dipole_4000_spp.exr"));
 }
 
+TEST_F(CompareVerb, ModelsAreFittedToATarget) {
+    const Outcome r = nacre(
+        "compare --models 'lambert,ward variant=duer,lambert reflectance=0.5,0.4,0.3' "
+        "--fit-to 'ward kd=0.3 ks=0.2 alpha=0.3' -o report --quiet");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const nlohmann::json d = report();
+    EXPECT_EQ(d["kind"], "models");
+    ASSERT_EQ(d["rows"].size(), 3u);
+    EXPECT_EQ(d["rows"][1]["id"], "ward variant=duer");
+    EXPECT_EQ(d["rows"][2]["id"], "lambert reflectance=0.5,0.4,0.3");
+    for (const auto& row : d["rows"]) EXPECT_EQ(row["status"], "ok");
+    EXPECT_LT(d["rows"][1]["values"]["error"], d["rows"][0]["values"]["error"]);
+    EXPECT_TRUE(fs::exists(folder_ / "report/pictures/ward_variant=duer.exr"));
+}
+
+TEST_F(CompareVerb, TheSuiteIsAMatrix) {
+    const Outcome r = nacre(
+        "compare --suite translucency --cases ball,low,veined,front,side --techniques brdf "
+        "--size 64x64 --spp 1 --reference-error 0.5 --keep kept -o report --quiet");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const nlohmann::json d = report();
+    EXPECT_EQ(d["kind"], "suite");
+    ASSERT_EQ(d["matrix"]["cases"].size(), 2u);
+    EXPECT_EQ(d["matrix"]["cases"][1]["id"], "ball low veined side");
+    EXPECT_TRUE(d["matrix"]["cases"][0]["cells"]["brdf profile=dipole"].contains("systematic"));
+    EXPECT_TRUE(fs::exists(folder_ / "report/pictures/ball_low_veined_side/reference.exr"));
+}
+
+/// Before anything is rendered.
+TEST_F(CompareVerb, AFolderThatCannotBeIsNamedAtOnce) {
+    for (const char* what :
+         {"compare ball.xml -o ball.xml", "compare ball.xml --keep ball.xml -o r",
+          "compare --models lambert --fit-to ggx -o ball.xml",
+          "compare --suite translucency -o ball.xml --keep kept"}) {
+        const Outcome r = nacre(what);
+        EXPECT_EQ(r.code, 2) << what;
+        EXPECT_NE(r.err.find("cannot be made: Not a directory; name another folder"),
+                  std::string::npos)
+            << what << ": " << r.err;
+        EXPECT_EQ(r.err.find('%'), std::string::npos) << r.err;
+    }
+}
+
 TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
     const struct {
         const char *arguments, *message;
@@ -144,6 +194,7 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
         {"compare --fit-to ggx", "--fit-to belongs to --models, which is missing"},
         {"compare --models ward --fit-to ggx --spp 4", "--spp has no meaning for --models"},
         {"compare --models wardd --fit-to ggx", "ward"},
+        {"compare --models ward,ward --fit-to ggx", "the model 'ward' is given twice"},
         {"compare ball.xml --material marble",
          "ball.xml: --material is for bare meshes; a scene says itself what its shapes are"},
     };

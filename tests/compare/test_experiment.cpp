@@ -34,7 +34,9 @@ TEST_F(ExperimentTest, EveryTechniqueGetsARowAndIsTakenUpAgain) {
         EXPECT_EQ(row.measurement.status, Status::done) << row.measurement.why;
         EXPECT_FALSE(row.measurement.reused);
         EXPECT_EQ(row.measurement.repeats(), 2);
-        EXPECT_TRUE(std::filesystem::exists(row.file)) << row.file;
+        std::string name = row.setting.id();
+        std::ranges::replace(name, ' ', '_');
+        EXPECT_TRUE(std::filesystem::exists(o.folder / (name + ".exr"))) << name;
     }
     EXPECT_EQ(s.integrator.type, "volpath");
     EXPECT_EQ(s.shapes[0].subsurface, nullptr);
@@ -168,8 +170,21 @@ TEST_F(ExperimentTest, APeerIsMeasuredLikeATechnique) {
     ExperimentOptions o = experiment_options("brdf");
     o.peers = {&good, &bad};
     o.peer_source = {"a.xml", {}, 7};
+    PeerDescription broken = good;
+    broken.name = "broken";
+    broken.run = [](const PeerRequest&) {
+        PeerResult result;
+        result.picture = Image(24, 24);
+        for (float& v : result.picture.data) v = std::numeric_limits<float>::infinity();
+        return result;
+    };
+    o.peers.push_back(&broken);
     const Experiment e = run_experiment(s, o);
-    ASSERT_EQ(e.rows.size(), 3u);
+    ASSERT_EQ(e.rows.size(), 4u);
+    EXPECT_TRUE(e.complete);
+    EXPECT_EQ(e.rows[3].measurement.status, Status::failed);
+    EXPECT_NE(e.rows[3].measurement.why.find("is not finite at pixel"), std::string::npos)
+        << e.rows[3].measurement.why;
     const Measurement& m = e.rows[1].measurement;
     EXPECT_EQ(m.id, "good 7 spp");
     ASSERT_EQ(m.status, Status::done) << m.why;

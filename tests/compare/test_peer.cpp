@@ -1,42 +1,24 @@
-// Peers: what nacre writes for them, and how their processes are run. Whether they then render the
-// scene is asked in test_peer_renders.cpp.
+// Peers: what nacre writes for them. How they are run is asked in test_peer_process.cpp, what they
+// render in test_peer_renders.cpp.
 #include "nacre/compare/peer.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <thread>
 
 #include "nacre/compare/peer_cycles_scene.h"
 #include "nacre/compare/peer_mesh.h"
-#include "nacre/compare/peer_process.h"
 #include "nacre/compare/peer_view.h"
 #include "nacre/compare/peer_xml.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/scene/scene_node.h"
-#include "tests/scene/scene_files.h"
+#include "tests/compare/peer_fixture.h"
 
 namespace nacre {
 namespace {
 
-class Peer : public SceneFiles {
+class Peer : public PeerTest {
   protected:
-    Scene load(const std::string& body) {
-        return load_scene(
-            write("scene.xml", "<scene version=\"3.0.0\">\n" + body + "\n</scene>\n"));
-    }
-    PeerRequest request(const Scene& scene) const {
-        PeerRequest r{.scene = scene};
-        r.folder = folder_ / "job";
-        r.search_path = (folder_ / "bin").string();
-        std::filesystem::create_directories(r.folder);
-        return r;
-    }
-    /// A program of that name on the request's search path.
-    void write_program(const std::string& name, const std::string& script) const {
-        const auto file = write("bin/" + name, "#!/bin/sh\n" + script + "\n");
-        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-    }
     nlohmann::json cycles(const Scene& scene, bool random_walk = false) {
         said_ = {};
         return cycles_scene(request(scene), "picture.exr", random_walk, said_);
@@ -51,10 +33,6 @@ class Peer : public SceneFiles {
 
     Substitutions said_;
 };
-
-const char* const plane = R"(
-    <emitter type="constant"/>
-    <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.25, 0"/></bsdf></shape>)";
 
 TEST_F(Peer, AreFoundByName) {
     EXPECT_EQ(find_peer("Cycles Random-Walk").name, "cycles_random_walk");
@@ -99,67 +77,6 @@ TEST_F(Peer, RefusesPicturesThatOnlyNacreMakes) {
     EXPECT_EQ(error_of([&] { find_peer("cycles").run(request(scene)); }),
               "Blender Cycles always shows light that was scattered once; compare with a "
               "max_depth of 2 or more");
-}
-
-TEST_F(Peer, FailureShowsTheEndOfTheLog) {
-    write_program("blender", "for i in 1 2 3 4 5 6 7; do echo line $i; echo; done; exit 3");
-    const Scene scene = load(plane);
-    const PeerRequest asked = request(scene);
-    try {
-        find_peer("cycles").run(asked);
-        FAIL() << "no error";
-    } catch (const RunError& error) {
-        EXPECT_EQ(std::string(error.what()), "cycles failed with exit status 3; the end of " +
-                                                 (asked.folder / "cycles.log").string() +
-                                                 ":\nline 3\nline 4\nline 5\nline 6\nline 7");
-    }
-}
-
-TEST_F(Peer, SuccessWithoutAPictureIsAFailure) {
-    write_program("blender", "echo nothing done");
-    const Scene scene = load(plane);
-    const PeerRequest asked = request(scene);
-    write_image(Image(2, 2), asked.folder / "cycles.exr");  // of an earlier run
-    EXPECT_THROW(find_peer("cycles").run(asked), RunError);
-}
-
-TEST_F(Peer, StopEndsAProgramThatDoesNotListen) {
-    write_program("blender", "trap '' TERM; sleep 60 & sleep 60");
-    const Scene scene = load(plane);
-    std::atomic<bool> stop = false;
-    PeerRequest asked = request(scene);
-    asked.stop = &stop;
-    std::thread later([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        stop = true;
-    });
-    const auto start = std::chrono::steady_clock::now();
-    try {
-        find_peer("cycles").run(asked);
-        ADD_FAILURE() << "no error";
-    } catch (const RunError& error) {
-        EXPECT_STREQ(error.what(), "cycles was stopped");
-    }
-    later.join();
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
-}
-
-TEST_F(Peer, ProcessesAreMeasured) {
-    const auto log = folder_ / "log";
-    const ProcessResult r =
-        run_process({"/bin/sh", "-c", "echo \"$1\"; echo nacre: key a value; exec sleep 0.3", "sh",
-                     "it's $HOME"},
-                    log);
-    EXPECT_EQ(r.status, 0);
-    EXPECT_FALSE(r.stopped);
-    EXPECT_GE(r.seconds, 0.3);
-    EXPECT_GT(r.peak_mb, 0.2);
-    EXPECT_LT(r.peak_mb, 50);
-    EXPECT_EQ(last_lines(log, 5), "it's $HOME\nnacre: key a value");
-    EXPECT_EQ(log_value(log, "key"), "a value");
-    EXPECT_EQ(run_process({"/bin/sh", "-c", "kill -9 $$"}, log).status, 128 + 9);
-    EXPECT_THROW(run_process({"/nowhere/program"}, log), RunError);
-    EXPECT_EQ(command_line({"/bin/a", "-x", "it's", ""}), "/bin/a -x 'it'\\''s' ''");
 }
 
 TEST_F(Peer, CyclesGetsCameraFilmAndDepth) {

@@ -110,7 +110,7 @@ TEST_F(ExperimentTest, ADocumentStaysInItsScript) {
     for (const char* mark : {"/*STYLE*/", "/*SCRIPT*/", "/*DOCUMENT*/", "<!--TITLE-->"})
         EXPECT_EQ(page.find(mark), page.npos) << mark;
     write("file", "");
-    EXPECT_THROW(write_report(document, folder_ / "file" / "below"), RunError);
+    EXPECT_THROW(write_report(document, folder_ / "file" / "below"), InputError);
 }
 
 TEST(SuiteReport, HasAMatrixAndOneRowATechnique) {

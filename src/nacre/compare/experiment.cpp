@@ -7,6 +7,7 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/scene/subsurface.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -78,6 +79,7 @@ PixelMask translucent_pixels(const Scene& scene, bool& object_only) {
 }
 
 Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
+    if (!o.folder.empty()) make_output_folder(o.folder);
     Experiment e;
     e.mask = translucent_pixels(scene, e.object_only);
     const int parts = int(o.settings.size() + o.peers.size()) + 1;
@@ -105,7 +107,6 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
     if (!e.reference.reached) return e;
 
     const std::string scene_key = content_key(scene);
-    if (!o.folder.empty()) std::filesystem::create_directories(o.folder);
     for (int i = 0; i < int(e.rows.size()); ++i) {
         ExperimentRow& row = e.rows[i];
         const std::string id = row.measurement.id;
@@ -123,12 +124,14 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
             if (row.measurement.status == Measurement::Status::missing) return e;
         }
         if (row.measurement.status != Measurement::Status::done) continue;
-        if (!file.empty()) {
-            if (!row.measurement.reused) write_measurement(row.measurement, key, file);
-            row.file = file;
+        if (!file.empty() && !row.measurement.reused) write_measurement(row.measurement, key, file);
+        try {
+            row.verdict =
+                judge(row.measurement, e.reference.picture, e.reference.variance, e.mask, o.block);
+        } catch (const InputError& error) {  // values that are not finite
+            row.measurement.status = Measurement::Status::failed;
+            row.measurement.why = error.what();
         }
-        row.verdict =
-            judge(row.measurement, e.reference.picture, e.reference.variance, e.mask, o.block);
     }
     e.complete = true;
     return e;

@@ -38,7 +38,6 @@ struct ExperimentRow {
     const PeerDescription* peer = nullptr;  ///< or another renderer
     Measurement measurement;
     std::optional<Verdict> verdict;  ///< if it is done
-    std::filesystem::path file;      ///< of its pictures, if there is one
 };
 
 struct Experiment {

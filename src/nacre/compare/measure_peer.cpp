@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "nacre/math/error.h"
-#include "nacre/math/random.h"
 
 namespace nacre {
 namespace {
@@ -48,7 +47,7 @@ Measurement measure_peer(const Scene& scene, const PeerDescription& peer, const 
                                 .defines = source.defines,
                                 .samples = source.samples,
                                 // What every renderer takes for a seed.
-                                .seed = stream_key(options.seed, std::uint64_t(repeat)) >> 33,
+                                .seed = frame_seed(options.seed, repeat) >> 33,
                                 .threads = options.threads,
                                 .folder = folder,
                                 .stop = options.stop};

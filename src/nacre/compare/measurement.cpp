@@ -30,7 +30,7 @@ void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
     std::vector<Image> frames;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
         if (options.stop && options.stop->load()) return;
-        scene.sampler.seed = stream_key(options.seed, std::uint64_t(repeat));
+        scene.sampler.seed = frame_seed(options.seed, repeat);
         RenderOptions render_options;
         render_options.threads = options.threads;
         render_options.stop = options.stop;
@@ -60,6 +60,10 @@ double Measurement::median_of(double Timing::*what) const {
     std::ranges::sort(values);
     const std::size_t n = values.size();
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+std::uint64_t frame_seed(std::uint64_t seed, int repeat) {
+    return stream_key(seed, std::uint64_t(repeat));
 }
 
 void set_pictures(Measurement& m, const std::vector<Image>& frames) {

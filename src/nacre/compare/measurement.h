@@ -42,6 +42,9 @@ struct Measurement {
 /// Sets `frame`, `mean` and `variance` from the frames, at least two of one size.
 void set_pictures(Measurement& m, const std::vector<Image>& frames);
 
+/// Seed of the frame of a repeat.
+std::uint64_t frame_seed(std::uint64_t seed, int repeat);
+
 struct MeasurementOptions {
     int repeats = 3;  ///< at least 2: how they differ tells noise from bias
     std::uint64_t seed = 0;

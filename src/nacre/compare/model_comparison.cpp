@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <numbers>
+#include <set>
 
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
@@ -61,16 +62,12 @@ ModelComparison compare(std::span<const ModelSpec> models, const Target& target,
     ModelComparison r;
     r.metric = options.metric;
     r.target = target.name();
-    for (const ModelSpec& spec : models) {
-        const Evaluator& evaluator = find_evaluator(spec.name);
-        AnyModel(evaluator, spec.settings, Bounds::ranges_only);  // throws if it cannot be
-        ComparedModel m{
-            .id = id_of(spec), .description = &evaluator.description(), .why = {}, .fit = {}};
-        for (const ComparedModel& other : r.models)
-            if (other.id == m.id)
-                throw InputError(fmt::format("the model '{}' is given twice", m.id));
-        r.models.push_back(std::move(m));
-    }
+    check_models(models);
+    for (const ModelSpec& spec : models)
+        r.models.push_back({.id = id_of(spec),
+                            .description = &find_evaluator(spec.name).description(),
+                            .why = {},
+                            .fit = {}});
     const TargetSamples samples = sample_target(target);
     r.directions = samples.size();
     r.missing_directions = samples.missing;
@@ -124,6 +121,15 @@ const Behaviour& behaviour_of(const AnyModel& model) {
         if (fits) return b;
     }
     return d.behaviours.front();
+}
+
+void check_models(std::span<const ModelSpec> models) {
+    std::set<std::string> ids;
+    for (const ModelSpec& spec : models) {
+        AnyModel(find_evaluator(spec.name), spec.settings, Bounds::ranges_only);
+        if (!ids.insert(id_of(spec)).second)
+            throw InputError(fmt::format("the model '{}' is given twice", id_of(spec)));
+    }
 }
 
 ModelComparison compare_models(std::span<const ModelSpec> models, const Target& target,

@@ -54,10 +54,13 @@ struct ModelComparison {
     std::map<std::string, Image> pictures;
 };
 
+/// Throws InputError for an unknown model, wrong settings, or a model given twice.
+void check_models(std::span<const ModelSpec> models);
+
 /// Fits every model to the target, in order, and measures it. A model that cannot be fitted is
 /// noted and the others go on; after `stop` the rest is missing, and a model whose fit it cut short
-/// is too. Throws InputError, before anything is computed, for an unknown model, wrong settings or
-/// a model given twice, and for a target that has no values.
+/// is too. Throws InputError, before anything is computed, as check_models does and for a target
+/// that has no values.
 ModelComparison compare_models(std::span<const ModelSpec> models, const Target& target,
                                const ModelComparisonOptions& options = {});
 

@@ -41,12 +41,6 @@ Json columns() {
     };
 }
 
-std::string at_limit_text(const ModelFit& fit) {
-    std::string text;
-    for (const std::string& name : fit.at_limit) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 Json row(const ComparedModel& m) {
     const ModelDescription& d = *m.description;
     Json about =
@@ -83,7 +77,7 @@ Json row(const ComparedModel& m) {
             };
             add("Error",
                 fmt::format("{:.4g} sr^-1, log {:.4g}", fit.errors.cosine, fit.errors.log));
-            add("At the end of the range", at_limit_text(fit));
+            add("At the end of the range", fmt::format("{}", fmt::join(fit.at_limit, ", ")));
             add("Beyond a bound", fit.beyond);
             add("Fit", fmt::format("{} iterations{}", fit.iterations,
                                    fit.converged ? "" : ", which did not come to an end"));

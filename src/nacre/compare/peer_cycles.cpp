@@ -6,6 +6,7 @@
 #include "nacre/compare/peer_cycles_scene.h"
 #include "nacre/compare/peer_job.h"
 #include "nacre/compare/peer_process.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -24,14 +25,14 @@ PeerResult run(const PeerRequest& asked, const std::string& name, bool random_wa
     check_comparable(asked.scene, "Blender Cycles");
     PeerRequest request = asked;
     request.folder = std::filesystem::absolute(asked.folder);
-    std::filesystem::create_directories(request.folder);
+    make_output_folder(request.folder);
     Substitutions substitutions;
     const nlohmann::json scene = cycles_scene(
         request, picture_file(request, name).filename().string(), random_walk, substitutions);
     const std::string description = name + ".json";
     const std::filesystem::path job = request.folder / (name + ".py");
-    write_text(request.folder / description, scene.dump(1));
-    write_text(job, cycles_job());
+    write_whole_file(request.folder / description, scene.dump(1));
+    write_whole_file(job, cycles_job());
     PeerResult result = run_peer_job(
         request, name,
         {blender->string(), "-b", "--factory-startup", "-P", job.string(), "--", description},

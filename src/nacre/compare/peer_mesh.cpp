@@ -2,10 +2,10 @@
 
 #include <fstream>
 
-#include "nacre/compare/peer_process.h"
 #include "nacre/geometry/tessellate.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/scene_node.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -49,7 +49,7 @@ void write_mesh_arrays(const Mesh& mesh, const std::filesystem::path& file) {
     append(bytes, mesh.triangles);
     append(bytes, mesh.normals);
     append(bytes, mesh.uvs);
-    write_text(file, bytes);
+    write_whole_file(file, bytes);
 }
 
 void write_ply(const Mesh& mesh, const std::filesystem::path& file) {
@@ -70,7 +70,7 @@ void write_ply(const Mesh& mesh, const std::filesystem::path& file) {
         bytes += '\x03';
         append(bytes, t);
     }
-    write_text(file, bytes);
+    write_whole_file(file, bytes);
 }
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include "nacre/compare/peer_process.h"
 #include "nacre/compare/peer_xml.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -58,12 +59,12 @@ PeerResult run_mitsuba(const PeerRequest& asked) {
     check_comparable(asked.scene, "Mitsuba 3");
     PeerRequest request = asked;
     request.folder = std::filesystem::absolute(asked.folder);
-    std::filesystem::create_directories(request.folder);
+    make_output_folder(request.folder);
     Substitutions substitutions;
     const MitsubaScene scene = mitsuba_scene(request, substitutions);
     const std::filesystem::path written = request.folder / "mitsuba.xml",
                                 script = request.folder / "mitsuba_job.py";
-    if (!scene.same_as_file) write_text(written, scene.xml);
+    if (!scene.same_as_file) write_whole_file(written, scene.xml);
     // The variants without just-in-time compilation: they need nothing but themselves.
     const char* variant =
         request.scene.mode == ColorMode::spectral ? "scalar_spectral" : "scalar_rgb";
@@ -78,8 +79,8 @@ PeerResult run_mitsuba(const PeerRequest& asked) {
         {"output", picture_file(request, "mitsuba").filename().string()}};
     if (scene.same_as_file)
         for (const auto& [name, value] : request.defines) description["defines"][name] = value;
-    write_text(request.folder / "mitsuba.json", description.dump(1));
-    write_text(script, job);
+    write_whole_file(request.folder / "mitsuba.json", description.dump(1));
+    write_whole_file(script, job);
     return run_peer_job(request, "mitsuba", {python->string(), script.string()},
                         std::move(substitutions.sentences));
 }

@@ -139,11 +139,4 @@ std::string log_value(const fs::path& log, std::string_view key) {
     return {};
 }
 
-void write_text(const fs::path& file, std::string_view text) {
-    std::ofstream out(file, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) throw RunError(fmt::format("{}: cannot be written", file.string()));
-}
-
 }  // namespace nacre

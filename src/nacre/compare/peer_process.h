@@ -34,7 +34,4 @@ std::string last_lines(const std::filesystem::path& file, int count);
 /// What follows "nacre: KEY " in a log; empty if nothing does.
 std::string log_value(const std::filesystem::path& log, std::string_view key);
 
-/// Writes text to a file; throws RunError if it cannot.
-void write_text(const std::filesystem::path& file, std::string_view text);
-
 }  // namespace nacre

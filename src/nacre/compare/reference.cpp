@@ -8,6 +8,7 @@
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "nacre/scene/content_key.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -129,7 +130,7 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
     Reference reference;
     Accumulation sum;
     if (!options.store.empty()) {
-        std::filesystem::create_directories(options.store);
+        make_output_folder(options.store);
         reference.file = options.store / fmt::format("{:016x}.exr", [&] {
                              std::uint64_t h = 0;
                              for (const char c : key)

@@ -36,9 +36,10 @@ struct Reference {
 };
 
 /// Renders in rounds of independent samples with seeds of their own, and keeps the sum after each
-/// as STORE/KEY.exr, where KEY stands for content_key, technique and the version of the program: a
-/// render that is stopped, or that wants less noise later, goes on from there. Throws InputError
-/// for unknown techniques, RunError if the store cannot be written.
+/// as STORE/KEY.exr, where KEY stands for content_key and technique: a render that is stopped, or
+/// that wants less noise later, goes on from there. Whoever changes how that technique computes
+/// asks for a `fresh` one. Throws InputError for unknown techniques and a store that cannot be
+/// made, RunError if it cannot be written.
 Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOptions& options);
 
 /// Root mean square over blocks and channels of the relative standard error of a block's mean.

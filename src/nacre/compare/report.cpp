@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "nacre/compare/report_page.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -44,17 +44,6 @@ ordered_json encoded(int width, int height, const char* encoding,
                      const std::vector<unsigned char>& bytes) {
     return {
         {"width", width}, {"height", height}, {"encoding", encoding}, {"data", deflated(bytes)}};
-}
-
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::path beside = file;
-    beside += ".part";
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
-        throw RunError(fmt::format("{}: cannot be written; is the disk full?", file.string()));
-    std::filesystem::rename(beside, file);
 }
 
 void replace(std::string& text, std::string_view mark, std::string_view by) {
@@ -150,10 +139,7 @@ ordered_json text_column(const char* key, const char* title, const char* help) {
 }
 
 void write_report(const ordered_json& document, const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw RunError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    make_output_folder(folder);
     std::string page(page_html);
     replace(page, "<!--TITLE-->", escaped(document.value("title", "Report")));
     replace(page, "/*STYLE*/", page_style);
@@ -161,8 +147,8 @@ void write_report(const ordered_json& document, const std::filesystem::path& fol
     replace(page, "/*DOCUMENT*/", for_script(document));
     ordered_json numbers = document;
     for (const char* key : {"pictures", "maps", "mask"}) numbers.erase(key);
-    write_whole(folder / "report.json", dump(numbers, 2) + "\n");
-    write_whole(folder / "index.html", page);
+    write_whole_file(folder / "report.json", dump(numbers, 2) + "\n");
+    write_whole_file(folder / "index.html", page);
 }
 
 std::string utc_now() {

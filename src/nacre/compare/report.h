@@ -26,7 +26,7 @@ nlohmann::ordered_json number_column(const char* key, const char* title, const c
 nlohmann::ordered_json text_column(const char* key, const char* title, const char* help);
 
 /// Writes index.html and report.json (without the pictures) into the folder, which is made if need
-/// be; each appears whole or not at all. Throws RunError if it cannot be written.
+/// be; each appears whole or not at all. Throws as write_whole_file and make_output_folder.
 void write_report(const nlohmann::ordered_json& document, const std::filesystem::path& folder);
 
 /// "2026-11-25 15:00 UTC".

@@ -155,7 +155,7 @@ ordered_json describe_peer_row(const ExperimentRow& row) {
     return r;
 }
 
-ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin,
+ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin, std::uint64_t seed,
                           bool several_samples) {
     const Measurement& m = row.measurement;
     if (row.peer) return describe_peer_row(row);
@@ -175,8 +175,9 @@ ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin,
         r["flip"] = m.id;
     }
     r["values"]["changes"] = std::string(technique.may_change);
-    r["command"] = fmt::format("nacre render {} {} -o picture.exr", origin.scene_arguments,
-                               row.setting.arguments());
+    r["command"] =
+        fmt::format("nacre render {} {} --seed {} -o picture.exr", origin.scene_arguments,
+                    row.setting.arguments(), frame_seed(seed, 0));
     r["about"] = about(technique, m);
     return r;
 }
@@ -271,7 +272,7 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
     d["pictures"] = {{"reference", rgbe_picture(shrunk(e.reference.picture, side))}};
     d["maps"] = ordered_json::object();
     for (const ExperimentRow& row : e.rows) {
-        d["rows"].push_back(describe_row(row, origin, several));
+        d["rows"].push_back(describe_row(row, origin, o.seed, several));
         if (row.measurement.invalid_samples)
             d["warnings"].push_back(fmt::format("{}: {} invalid samples", row.measurement.id,
                                                 row.measurement.invalid_samples));

@@ -158,7 +158,6 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
     SuiteResult r;
     r.which = which;
     r.picture = shrunk(e.reference.picture, thumbnail_side);
-    r.reference_samples = e.reference.samples;
     r.reference_error = e.reference.error;
     r.reference_cpu_seconds = e.reference.cpu_seconds;
     for (const ExperimentRow& row : e.rows) {

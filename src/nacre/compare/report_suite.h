@@ -18,7 +18,6 @@ struct SuiteResult {
     SuiteCase which;
     std::vector<SuiteCell> cells;
     Image picture;  ///< the reference, small
-    int reference_samples = 0;
     double reference_error = 0, reference_cpu_seconds = 0;
 };
 

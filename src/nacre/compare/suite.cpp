@@ -37,11 +37,6 @@ std::string label(std::span<const Word> words, std::string_view word) {
 constexpr double radius = 30;  // mm, of the sphere that holds the object
 constexpr double dim = 0.03;   // radiance of the surroundings, so that nothing is quite black
 
-Vec3d direction(double azimuth, double elevation) {
-    const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
-    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
-}
-
 Vec3f grey(double value) { return {float(value), float(value), float(value)}; }
 
 NodePtr camera(int width, int height) {
@@ -60,21 +55,13 @@ NodePtr camera(int width, int height) {
     return camera;
 }
 
-/// A shining ball seven radii away, as large as a cloudy sky's bright part, for soft shadows; a
-/// white surface that faces it shines with `white`.
+/// Seven radii away, as large as a cloudy sky's bright part, for soft shadows.
 NodePtr light(const std::string& where) {
     const Vec3d from = where == "front"  ? direction(-30, 35)
                        : where == "side" ? direction(-95, 25)
                                          : direction(165, 30);
-    const double white = where == "back" ? 3 : 1, size = 3 * radius, distance = 7 * radius;
-    auto emitter = make_node("emitter", "area");
-    const double radiance = white * (distance / size) * (distance / size);
-    set_rgb(emitter, "radiance", grey(radiance));
-    auto shape = make_node("shape", "sphere");
-    set(shape, "center", "point", from * distance);
-    set(shape, "radius", "float", size);
-    add(shape, emitter);
-    return shape;
+    const double distance = 7 * radius;
+    return ball_light(from * distance, 3 * radius, distance, grey(1), where == "back" ? 3 : 1);
 }
 
 NodePtr object(const SuiteCase& which) {

@@ -11,6 +11,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/scene/image_formats.h"
+#include "nacre/scene/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -69,43 +70,6 @@ std::string read_file(const std::filesystem::path& file) {
                                      in ? "the file is empty" : "the file cannot be read"));
     return bytes;
 }
-
-/// A file beside the one that is wanted; removed unless it was renamed.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const std::filesystem::path& wanted) : wanted_(wanted) {
-        static std::atomic<unsigned> number{0};  // two threads may write into one folder
-        path_ = wanted;
-        path_ += fmt::format(".{}-{}.tmp", getpid(), number++);
-    }
-    ~TemporaryFile() {
-        std::error_code ignored;
-        if (!done_) std::filesystem::remove(path_, ignored);
-    }
-    void write(const std::string& bytes) {
-        errno = 0;
-        std::FILE* f = std::fopen(path_.c_str(), "wb");
-        if (!f) fail();
-        const bool written = std::fwrite(bytes.data(), 1, bytes.size(), f) == bytes.size();
-        // Closing may be what finds the disk full.
-        if (std::fclose(f) != 0 || !written) fail();
-        std::error_code error;
-        std::filesystem::rename(path_, wanted_, error);
-        if (error) {
-            errno = error.value();
-            fail();
-        }
-        done_ = true;
-    }
-
-  private:
-    [[noreturn]] void fail() const {
-        throw RunError(
-            fmt::format("{}: cannot be written: {}", wanted_.string(), std::strerror(errno)));
-    }
-    std::filesystem::path wanted_, path_;
-    bool done_ = false;
-};
 
 [[noreturn]] void fail_unknown(const std::filesystem::path& file, const char* known) {
     throw InputError(fmt::format("{}: '{}' is not an image format that nacre {}", file.string(),
@@ -198,16 +162,15 @@ void write_image(const Image& image, const std::filesystem::path& file, float ex
         throw InputError(
             fmt::format("{}: an image without pixels cannot be written", file.string()));
     const Format format = output_format(file);
-    TemporaryFile out(file);
     switch (format) {
         case Format::exr:
-            return out.write(image_formats::encode_exr(image));
+            return write_whole_file(file, image_formats::encode_exr(image));
         case Format::pfm:
-            return out.write(image_formats::encode_pfm(image));
+            return write_whole_file(file, image_formats::encode_pfm(image));
         case Format::hdr:
-            return out.write(image_formats::encode_hdr(image));
+            return write_whole_file(file, image_formats::encode_hdr(image));
         default:
-            return out.write(image_formats::encode_png(image, exposure));
+            return write_whole_file(file, image_formats::encode_png(image, exposure));
     }
 }
 

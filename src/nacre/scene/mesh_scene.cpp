@@ -17,31 +17,16 @@
 namespace nacre {
 namespace {
 
-/// Unit vector `azimuth` degrees from +z towards +x and `elevation` degrees above the floor.
-Vec3d direction(double azimuth, double elevation) {
-    const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
-    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
-}
-
 /// The object's bounding sphere, about which everything is arranged.
 struct Stage {
     Vec3d center;
     double radius;
 };
 
-/// A shining ball, 4 radii away: unlike a panel it has no back, whose shadow would cut the floor in
-/// two. `white` is the radiance that it alone gives to a white surface turned towards it.
-NodePtr ball_light(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
-    const double radius = 0.9 * stage.radius, distance = 4 * stage.radius;
-    auto light = make_node("emitter", "area");
-    // The irradiance is pi L (radius / distance)^2, and white shines with irradiance / pi.
-    const double radiance = white * (distance / radius) * (distance / radius);
-    set_rgb(light, "radiance", color * static_cast<float>(radiance));
-    auto shape = make_node("shape", "sphere");
-    set(shape, "center", "point", stage.center + from * distance);
-    set(shape, "radius", "float", radius);
-    add(shape, light);
-    return shape;
+/// 4 radii away; `white` is the radiance that it alone gives to a white surface turned towards it.
+NodePtr lamp(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
+    const double distance = 4 * stage.radius;
+    return ball_light(stage.center + from * distance, 0.9 * stage.radius, distance, color, white);
 }
 
 NodePtr floor_under(const Stage& stage, double height) {
@@ -156,8 +141,8 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
     // With the sky and the floor a white object in the key light comes to just below 1. The light
     // from behind is stronger, because what passes through the object is little; it stands high
     // enough to stay out of the picture.
-    add(root, ball_light(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
-    add(root, ball_light(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
+    add(root, lamp(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
+    add(root, lamp(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
     add(root, floor_under(stage, height));
     auto shape = translucent_shape(inside);
     if (!object->name.empty()) shape->id = object->name;
