@@ -53,6 +53,22 @@ TEST_F(PeerProcess, StopEndsAProgramThatDoesNotListen) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
+/// One that listens is asked first, and may tidy up.
+TEST_F(PeerProcess, StopAsksBeforeItKills) {
+    std::atomic<bool> stop = false;
+    std::thread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        stop = true;
+    });
+    const ProcessResult r = run_process(
+        {"/bin/sh", "-c", "trap 'echo tidied up; exit 5' TERM; while :; do sleep 0.05; done"},
+        folder_ / "log", &stop);
+    later.join();
+    EXPECT_TRUE(r.stopped);
+    EXPECT_EQ(r.status, 5);
+    EXPECT_NE(last_lines(folder_ / "log", 3).find("tidied up"), std::string::npos);
+}
+
 TEST_F(PeerProcess, ProcessesAreMeasured) {
     const auto log = folder_ / "log";
     const ProcessResult r =
