@@ -8,7 +8,8 @@
 
 #include "apps/cli/progress_bar.h"
 #include "nacre/math/error.h"
-#include "nacre/math/random.h"
+#include "nacre/scene/content_key.h"
+#include "nacre/scene/split_words.h"
 
 namespace nacre::cli {
 
@@ -22,22 +23,10 @@ double parse_share(const std::string& option, const std::string& text) {
     return n == 2 ? value / 100 : value;
 }
 
-std::vector<std::string> parse_names(const std::string& text) {
-    std::vector<std::string> names;
-    std::string name;
-    for (const char c : text + ",") {
-        if (c != ',') {
-            name += c;
-        } else if (!name.empty()) {
-            names.push_back(std::exchange(name, {}));
-        }
-    }
-    return names;
-}
-
 std::vector<int> parse_counts(const std::string& option, const std::string& text) {
     std::vector<int> counts;
-    for (const std::string& word : parse_names(text)) {
+    for (const std::string_view view : split_words(text)) {
+        const std::string word(view);
         int n = 0;
         char end = 0;
         if (std::sscanf(word.c_str(), "%d%c", &n, &end) != 1 || n < 1)
@@ -61,13 +50,7 @@ std::filesystem::path reference_store(const CompareOptions& o) {
 std::string build_id() {
     std::ifstream self("/proc/self/exe", std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(self), {}};
-    std::uint64_t hash = bytes.size();
-    for (std::size_t i = 0; i + 8 <= bytes.size(); i += 8) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, 8);
-        hash = mix_bits(hash ^ word);
-    }
-    return fmt::format("{} (build {:08x})", version, hash >> 32);
+    return fmt::format("{} (build {:08x})", version, hash_bytes(bytes) >> 32);
 }
 
 PartProgress::PartProgress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}

@@ -31,7 +31,6 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
 double parse_share(const std::string& option, const std::string& text);
 /// "4,16"; throws InputError that names the option.
 std::vector<int> parse_counts(const std::string& option, const std::string& text);
-std::vector<std::string> parse_names(const std::string& text);
 /// Where references are kept unless said otherwise: $XDG_CACHE_HOME/nacre/references.
 std::filesystem::path reference_store(const CompareOptions& o);
 /// Version, and a hash of the program itself: another build may be faster or slower.

@@ -9,6 +9,7 @@
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/split_words.h"
 #include "nacre/scene/whole_file.h"
 
 namespace nacre::cli {
@@ -17,7 +18,9 @@ namespace {
 /// "ward variant=duer,ggx": what begins like a number goes on with the colour before the comma.
 std::vector<ModelSpec> parse_models(const std::string& text) {
     std::vector<std::string> items;
-    for (std::string word : parse_names(text)) {
+    for (const std::string_view view : split_words(text, ",")) {
+        std::string word(view.substr(std::min(view.find_first_not_of(' '), view.size())));
+        if (word.empty()) continue;
         const bool number = !std::isalpha(static_cast<unsigned char>(word[0]));
         std::ranges::replace(word, ':', ' ');
         if (number && !items.empty())

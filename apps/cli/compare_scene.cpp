@@ -9,6 +9,7 @@
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/split_words.h"
 
 namespace nacre::cli {
 namespace {
@@ -74,7 +75,7 @@ ExperimentOptions experiment_options(const CompareOptions& o) {
     options.folder = o.output / "pictures";
     options.build = build_id();
     options.fresh = o.fresh;
-    for (const std::string& name : parse_names(o.peers)) {
+    for (const std::string_view name : split_words(o.peers)) {
         const PeerDescription& peer = find_peer(name);
         // Better known now than after all the techniques.
         if (!peer.find(""))

@@ -129,7 +129,7 @@ TEST_F(CompareVerb, CtrlCKeepsWhatIsFinished) {
 
 TEST_F(CompareVerb, ModelsAreFittedToATarget) {
     const Outcome r = nacre(
-        "compare --models 'lambert,ward variant=duer,lambert reflectance=0.5,0.4,0.3' "
+        "compare --models 'lambert, ward variant=duer,lambert reflectance=0.5,0.4,0.3' "
         "--fit-to 'ward kd=0.3 ks=0.2 alpha=0.3' -o report --quiet");
     ASSERT_EQ(r.code, 0) << r.err;
     const nlohmann::json d = report();

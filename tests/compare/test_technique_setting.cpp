@@ -26,6 +26,7 @@ TEST(TechniqueSettings, MistakesAreNamed) {
     const struct {
         const char *list, *message;
     } cases[] = {
+        {",", "no technique is named; write all, or see 'nacre models'"},
         {"two_pass:error", "'error' of two_pass is not of the form name=value"},
         {"two_pass:eror=1", "unknown option 'eror'; did you mean 'error'?"},
         {"brdf,brdf", "'brdf profile=dipole 1 spp' is asked for twice"},

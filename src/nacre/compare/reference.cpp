@@ -131,12 +131,7 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
     Accumulation sum;
     if (!options.store.empty()) {
         make_output_folder(options.store);
-        reference.file = options.store / fmt::format("{:016x}.exr", [&] {
-                             std::uint64_t h = 0;
-                             for (const char c : key)
-                                 h = mix_bits(h ^ std::uint64_t(static_cast<unsigned char>(c)));
-                             return h;
-                         }());
+        reference.file = options.store / fmt::format("{:016x}.exr", hash_bytes(key));
         if (!options.fresh)
             if (auto kept = Accumulation::read(reference.file, key)) sum = std::move(*kept);
     }

@@ -11,6 +11,7 @@
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/scene/split_words.h"
 #include "nacre/scene/volume_grid.h"
 #include "nacre/scene/write_nodes.h"
 
@@ -172,19 +173,12 @@ std::vector<std::string> SuiteCase::labels() const {
 }
 
 std::vector<SuiteCase> suite_cases(std::string_view filter) {
-    std::vector<std::string> wanted(1);
-    for (const char c : filter) {
-        if (c == ',')
-            wanted.emplace_back();
-        else
-            wanted.back() += c;
-    }
-    std::erase(wanted, "");
+    const std::vector<std::string_view> wanted = split_words(filter);
     std::vector<std::string> known;
     for (const std::span<const Word> list :
          std::initializer_list<std::span<const Word>>{objects, albedos, matters, lights})
         for (const Word& w : list) known.emplace_back(w.word);
-    for (const std::string& w : wanted)
+    for (const std::string_view w : wanted)
         if (std::ranges::find(known, w) == known.end())
             throw InputError(
                 fmt::format("the suite has no '{}'; its words are: {}", w, fmt::join(known, ", ")));
@@ -193,7 +187,7 @@ std::vector<SuiteCase> suite_cases(std::string_view filter) {
     // ball and the bust in front light.
     const auto passes = [&](std::span<const Word> list, std::string_view word) {
         bool any = false, this_one = false;
-        for (const std::string& w : wanted) {
+        for (const std::string_view w : wanted) {
             any |= std::ranges::find(list, w, &Word::word) != list.end();
             this_one |= w == word;
         }

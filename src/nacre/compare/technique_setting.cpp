@@ -6,22 +6,12 @@
 
 #include "nacre/bssrdf/profile.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/split_words.h"
 
 namespace nacre {
 namespace {
 
-std::vector<std::string> split(std::string_view text, char at) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
-TechniqueChoice parse_choice(const std::vector<std::string>& words) {
+TechniqueChoice parse_choice(const std::vector<std::string_view>& words) {
     TechniqueChoice choice;
     choice.technique = std::string(find_technique(words[0]).name);
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -29,7 +19,7 @@ TechniqueChoice parse_choice(const std::vector<std::string>& words) {
         if (equals == 0 || equals == words[i].npos)
             throw InputError(
                 fmt::format("'{}' of {} is not of the form name=value", words[i], words[0]));
-        const std::string name = words[i].substr(0, equals), value = words[i].substr(equals + 1);
+        const std::string name(words[i].substr(0, equals)), value(words[i].substr(equals + 1));
         if (name == "profile")
             choice.profile = std::string(find_profile(value).name);
         else
@@ -49,13 +39,15 @@ std::vector<TechniqueChoice> parse_list(std::string_view list) {
         for (const TechniqueDescription& t : techniques()) add_variants(t);
         return choices;
     }
-    for (const std::string& item : split(list, ',')) {
-        const std::vector<std::string> words = split(item, ':');
+    for (const std::string_view item : split_words(list, ",")) {
+        const std::vector<std::string_view> words = split_words(item, ":");
         if (words.size() == 1)
-            add_variants(find_technique(item));
-        else
+            add_variants(find_technique(words[0]));
+        else if (!words.empty())
             choices.push_back(parse_choice(words));
     }
+    if (choices.empty())
+        throw InputError("no technique is named; write all, or see 'nacre models'");
     return choices;
 }
 

@@ -98,6 +98,12 @@ void add_film(Hash& hash, const FilmSettings& film) {
 
 }  // namespace
 
+std::uint64_t hash_bytes(std::string_view bytes) {
+    Hash hash;
+    hash.add(bytes);
+    return hash.value();
+}
+
 std::string content_key(const Scene& scene) {
     if (!scene.root)
         throw InputError("the scene was put together by hand: there is nothing to make a key of");

@@ -1,6 +1,8 @@
 #pragma once
 // A key for what a scene shows, so that a picture of it that took long can be found again.
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "nacre/scene/scene.h"
 
@@ -12,5 +14,8 @@ namespace nacre {
 /// integrators) is not part of it. A 64-bit hash: not proof against somebody who wants to be
 /// fooled. Throws InputError for a scene without `root`, RunError if a file cannot be read.
 std::string content_key(const Scene& scene);
+
+/// The hash that keys are made of.
+std::uint64_t hash_bytes(std::string_view bytes);
 
 }  // namespace nacre

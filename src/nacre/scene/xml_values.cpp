@@ -11,22 +11,11 @@
 
 #include "nacre/math/frame.h"
 #include "nacre/scene/find_file.h"
+#include "nacre/scene/split_words.h"
 #include "nacre/spectrum/color.h"
 
 namespace nacre {
 namespace {
-
-std::vector<std::string_view> split(std::string_view text,
-                                    std::string_view separators = ", \t\r\n") {
-    std::vector<std::string_view> tokens;
-    for (std::size_t i = text.find_first_not_of(separators); i != text.npos;
-         i = text.find_first_not_of(separators, i)) {
-        const std::size_t end = std::min(text.find_first_of(separators, i), text.size());
-        tokens.push_back(text.substr(i, end - i));
-        i = end;
-    }
-    return tokens;
-}
 
 /// The whole of `text` as a finite number, or nothing.
 std::optional<double> parse_number(std::string_view text) {
@@ -47,20 +36,20 @@ double number(const XmlElement& element, std::string_view text) {
 /// The attribute as one number.
 double number_attribute(const XmlElement& element, const std::string& attribute) {
     const std::string text = element.get(attribute);
-    const auto tokens = split(text, " \t\r\n");
+    const auto tokens = split_words(text, " \t\r\n");
     return number(element, tokens.size() == 1 ? tokens[0] : std::string_view(text));
 }
 
 std::vector<double> numbers(const XmlElement& element, const std::string& attribute) {
     const std::string text = element.get(attribute);
     std::vector<double> values;
-    for (const std::string_view token : split(text)) values.push_back(number(element, token));
+    for (const std::string_view token : split_words(text)) values.push_back(number(element, token));
     return values;
 }
 
 std::int64_t integer(const XmlElement& element) {
     const std::string text = element.get("value");
-    const auto tokens = split(text, " \t\r\n");
+    const auto tokens = split_words(text, " \t\r\n");
     std::string_view token = tokens.size() == 1 ? tokens[0] : std::string_view(text);
     if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
     std::int64_t value = 0;
@@ -218,7 +207,7 @@ ColorValue tabulated(const XmlElement& element) {
         if (text.ends_with(':') && std::isspace(static_cast<unsigned char>(c))) continue;
         text += c;
     }
-    for (const std::string_view token : split(text)) {
+    for (const std::string_view token : split_words(text)) {
         const std::size_t colon = token.find(':');
         if (colon == token.npos)
             element.fail(fmt::format("'{}' is not a pair 'wavelength:value'", token));
@@ -307,7 +296,7 @@ ColorValue read_spectrum_file(const std::filesystem::path& file) {
     };
     for (std::string line; std::getline(stream, line);) {
         ++line_number;
-        const auto tokens = split(std::string_view(line).substr(0, line.find('#')));
+        const auto tokens = split_words(std::string_view(line).substr(0, line.find('#')));
         if (tokens.empty()) continue;
         const auto nm = parse_number(tokens[0]);
         const auto value = tokens.size() == 2 ? parse_number(tokens[1]) : std::nullopt;
