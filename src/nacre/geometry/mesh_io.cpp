@@ -97,6 +97,10 @@ void trim(std::vector<T>& v, std::size_t extra) {
 }
 
 Mesh read(const MeshSource& source, const std::string& extension, int shape_index) {
+    // No format knows it, and read byte by byte it looks like an empty file of any of them.
+    if (extension != ".serialized" && extension != ".glb" &&
+        (source.bytes.starts_with("\xff\xfe") || source.bytes.starts_with("\xfe\xff")))
+        source.fail("is text in UTF-16; save it as UTF-8");
     if (extension == ".obj") return read_obj(source);
     if (extension == ".ply") return read_ply(source);
     if (extension == ".off") return read_off(source);

@@ -1,104 +1,33 @@
-// Wavefront OBJ through tinyobjloader's callbacks: its ordinary interface keeps several copies of
-// all faces, which a mesh of ten million triangles does not bear.
+// Wavefront OBJ: v, vt, vn and f; groups, objects and materials are merged into one mesh, all else
+// is skipped. Read by our own hand: the library at hand takes the next corner's index for what is
+// missing in "1//", reads words that are no numbers as 0 and does not bear ten million triangles.
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
-#include <istream>
-#include <limits>
-#include <streambuf>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "nacre/geometry/mesh_source.h"
+#include "nacre/geometry/polygon.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
-
-// Hands the file to the parser line by line, so that callbacks know the line they are called for;
-// joins lines that end in a backslash; refuses words that are no numbers, which the parser would
-// silently read as zero.
-class ObjLines : public std::streambuf {
-  public:
-    explicit ObjLines(const MeshSource& source) : source_(source) {}
-    std::size_t line() const { return line_; }
-
-  protected:
-    int_type underflow() override {
-        if (offset_ >= source_.bytes.size()) return traits_type::eof();
-        text_.clear();
-        line_ = ++lines_read_;
-        append_line();
-        while (ends_in_backslash() && offset_ < source_.bytes.size()) {
-            text_.back() = ' ';
-            ++lines_read_;
-            append_line();
-        }
-        check();
-        text_ += '\n';
-        setg(text_.data(), text_.data(), text_.data() + text_.size());
-        return traits_type::to_int_type(text_[0]);
-    }
-
-  private:
-    void append_line() {
-        const std::string_view bytes = source_.bytes;
-        const std::size_t end = std::min(bytes.find('\n', offset_), bytes.size());
-        text_ += bytes.substr(offset_, end - offset_);
-        if (text_.ends_with('\r')) text_.pop_back();
-        offset_ = std::min(end + 1, bytes.size());
-    }
-    bool ends_in_backslash() const { return text_.ends_with('\\'); }
-
-    void check() const {
-        std::string_view rest = text_;
-        const auto word = [&] {
-            rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
-            const std::string_view found = rest.substr(0, rest.find_first_of(kBlank));
-            rest.remove_prefix(found.size());
-            return found;
-        };
-        const std::string_view keyword = word();
-        // Texture coordinates may be one number only.
-        const int needed = keyword == "v" || keyword == "vn" ? 3 : keyword == "vt" ? 1 : 0;
-        for (int i = 0; i < needed; ++i) {
-            const std::string_view number = word();
-            if (number.empty())
-                source_.fail(line_,
-                             fmt::format("'{}' with {} numbers; it needs {}", keyword, i, needed));
-            if (number.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
-                source_.fail(line_, fmt::format("'{}' is not a finite number", number));
-        }
-        if (keyword != "f") return;
-        for (std::string_view corner = word(); !corner.empty(); corner = word())
-            if (corner.find_first_not_of("0123456789-+/") != std::string_view::npos)
-                source_.fail(line_, fmt::format("'{}' is not a corner; write v, v/vt, v//vn or "
-                                                "v/vt/vn",
-                                                corner));
-    }
-
-    const MeshSource& source_;
-    std::string text_;
-    std::size_t offset_ = 0, lines_read_ = 0, line_ = 0;
-};
-
-// Takes the parser's callbacks. Corners become vertices of the mesh: one for each position while
+// Corners become vertices of the mesh: one for each position while
 // no face names texture coordinates or normals, later one for each combination (v, vt, vn).
 class ObjBuilder {
   public:
-    ObjBuilder(const MeshSource& source, const ObjLines& lines) : source_(source), lines_(lines) {}
+    ObjBuilder(const MeshSource& source, const TextLines& lines)
+        : source_(source), lines_(lines), polygons_(mesh_) {}
 
-    void face(const tinyobj::index_t* raw, int count) {
+    void face(TextLines& line) {
         corners_.clear();
-        for (int i = 0; i < count; ++i) {
-            const Corner c{resolve(raw[i].vertex_index, positions.size(), vertex_),
-                           resolve(raw[i].texcoord_index, uvs.size(), uv_),
-                           resolve(raw[i].normal_index, normals.size(), normal_)};
-            if (c.v == 0)
-                source_.fail(lines_.line(), "face names vertex 0; OBJ counts vertices from 1");
+        for (std::string_view word = line.word(); !word.empty(); word = line.word()) {
+            const Corner c = corner(word);
             if (!combined_ && (c.vt || c.vn)) combine();
             corners_.push_back(combined_ ? vertex_of(c) : c.v - 1);
         }
-        add_polygon(mesh_, corners_);
+        polygons_.add(corners_);
         ++faces_;
     }
 
@@ -108,6 +37,7 @@ class ObjBuilder {
         check(normal_, normals.size(), "normal", "normals");
         if (!combined_) {
             mesh_.positions = std::move(positions);
+            polygons_.cut();
             return std::move(mesh_);
         }
         first_of_ = {};
@@ -122,6 +52,7 @@ class ObjBuilder {
             if (any_normal)
                 mesh_.normals.push_back(e.corner.vn ? normals[e.corner.vn - 1] : Vec3f{});
         }
+        polygons_.cut();
         return std::move(mesh_);
     }
 
@@ -145,14 +76,49 @@ class ObjBuilder {
         std::size_t line = 0;
     };
 
-    // tinyobjloader hands over the numbers of the file: from 1, or negative to count backwards.
-    std::uint32_t resolve(int index, std::size_t count, Largest& largest) {
-        const std::int64_t absolute = index < 0 ? std::int64_t(count) + index + 1 : index;
-        // No file of n bytes holds n vertices: this bounds what an index can make us allocate.
-        if ((index < 0 && absolute < 1) || absolute > std::int64_t(source_.bytes.size()))
+    // v, v/vt, v//vn or v/vt/vn; a part that is empty, also at the end ("1//", "1/2/" are written
+    // by some programs), is absent.
+    Corner corner(std::string_view word) {
+        std::array<std::string_view, 3> parts;
+        std::size_t count = 0;
+        for (std::string_view rest = word;; ++count) {
+            const std::size_t slash = rest.find('/');
+            if (count == 3) fail_corner(word);
+            parts[count] = rest.substr(0, slash);
+            if (slash == rest.npos) break;
+            rest.remove_prefix(slash + 1);
+        }
+        if (parts[0].empty()) fail_corner(word);
+        const Corner c{resolve(parts[0], word, positions.size(), vertex_),
+                       resolve(parts[1], word, uvs.size(), uv_),
+                       resolve(parts[2], word, normals.size(), normal_)};
+        if (c.v == 0)
+            source_.fail(lines_.line(), "face names vertex 0; OBJ counts vertices from 1");
+        return c;
+    }
+
+    [[noreturn]] void fail_corner(std::string_view word) const {
+        source_.fail(lines_.line(),
+                     fmt::format("'{}' is not a corner; write v, v/vt, v//vn or v/vt/vn", word));
+    }
+
+    // The file's numbers count from 1, or, if negative, backwards.
+    std::uint32_t resolve(std::string_view part, std::string_view word, std::size_t count,
+                          Largest& largest) {
+        if (part.empty()) return 0;
+        if (part.find_first_not_of("0123456789-+") != part.npos) fail_corner(word);
+        const std::optional<std::int64_t> index = integer_in(part);
+        if (!index && part.find_first_of("0123456789") == part.npos) fail_corner(word);
+        // What does not fit 64 bits is out of range, too. No file of n bytes holds n vertices: this
+        // bounds what an index can make us allocate.
+        const std::int64_t limit = std::min<std::int64_t>(source_.bytes.size(), 0xfffffffe);
+        const std::int64_t absolute = !index       ? -1
+                                      : *index < 0 ? std::int64_t(count) + 1 + *index
+                                                   : *index;
+        if (absolute < (index && *index == 0 ? 0 : 1) || absolute > limit)
             source_.fail(lines_.line(), fmt::format("face {} (counted from 1) has index {}, but {} "
                                                     "are defined before it",
-                                                    faces_ + 1, index, count));
+                                                    faces_ + 1, part, count));
         if (absolute > largest.largest)
             largest = {static_cast<std::uint32_t>(absolute), lines_.line()};
         return static_cast<std::uint32_t>(absolute);
@@ -187,8 +153,9 @@ class ObjBuilder {
     }
 
     const MeshSource& source_;
-    const ObjLines& lines_;
+    const TextLines& lines_;
     Mesh mesh_;
+    PolygonList polygons_;
     bool combined_ = false;
     std::size_t faces_ = 0;
     Largest vertex_, uv_, normal_;
@@ -197,27 +164,54 @@ class ObjBuilder {
     std::vector<Entry> vertices_;
 };
 
+/// Lines whose rest is a name, which on one family of systems may end in a backslash: it is no
+/// continuation there.
+bool holds_a_name(std::string_view keyword) {
+    constexpr std::string_view kNames[] = {"mtllib", "usemtl", "g", "o", "usemap", "maplib"};
+    return std::ranges::find(kNames, keyword) != std::end(kNames);
+}
+
+/// The next number of the line; `i` of `needed` were read before it.
+float next_number(const MeshSource& source, TextLines& line, std::string_view keyword, int i,
+                  int needed) {
+    const std::string_view word = line.word();
+    if (word.empty())
+        source.fail(line.line(),
+                    fmt::format("'{}' with {} numbers; it needs {}", keyword, i, needed));
+    const std::optional<double> value = number_in(word);
+    // Infinity that is written as a number of too many digits is left to the check of the mesh.
+    const bool digits = word.find_first_not_of("0123456789+-.eE") == word.npos;
+    if (!value || !digits)
+        source.fail(line.line(), fmt::format("'{}' is not a finite number", word));
+    return static_cast<float>(*value);
+}
+
 }  // namespace
 
 Mesh read_obj(const MeshSource& source) {
-    ObjLines lines(source);
-    ObjBuilder builder(source, lines);
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = [](void* to, float x, float y, float z, float) {
-        static_cast<ObjBuilder*>(to)->positions.emplace_back(x, y, z);
+    TextLines line(source, 0, 0);
+    ObjBuilder builder(source, line);
+    const auto vector = [&](std::string_view keyword) {
+        Vec3f v;
+        for (int i = 0; i < 3; ++i) v[i] = next_number(source, line, keyword, i, 3);
+        return v;
     };
-    callbacks.normal_cb = [](void* to, float x, float y, float z) {
-        static_cast<ObjBuilder*>(to)->normals.emplace_back(x, y, z);
-    };
-    callbacks.texcoord_cb = [](void* to, float u, float v, float) {
-        static_cast<ObjBuilder*>(to)->uvs.push_back({u, v});
-    };
-    callbacks.index_cb = [](void* to, tinyobj::index_t* corners, int count) {
-        static_cast<ObjBuilder*>(to)->face(corners, count);
-    };
-    std::istream stream(&lines);
-    stream.exceptions(std::ios::badbit);  // lets our own exceptions through
-    tinyobj::LoadObjWithCallback(stream, callbacks, &builder);
+    while (line.next_line()) {
+        const std::string_view keyword = line.word();
+        if (holds_a_name(keyword)) continue;
+        line.join_continued();
+        if (keyword == "v") {
+            builder.positions.push_back(vector(keyword));
+        } else if (keyword == "vn") {
+            builder.normals.push_back(vector(keyword));
+        } else if (keyword == "vt") {  // one number is enough for a texture along a line
+            const float u = next_number(source, line, keyword, 0, 1);
+            const bool second = !line.line_done();
+            builder.uvs.push_back({u, second ? next_number(source, line, keyword, 1, 2) : 0.f});
+        } else if (keyword == "f") {
+            builder.face(line);
+        }
+    }
     return builder.finish();
 }
 

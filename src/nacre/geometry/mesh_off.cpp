@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "nacre/geometry/mesh_source.h"
+#include "nacre/geometry/polygon.h"
 
 namespace nacre {
 namespace {
@@ -15,11 +16,15 @@ struct Header {
 
 Header read_header(const MeshSource& source, TextLines& text) {
     if (!text.next_line()) source.fail("is empty; an OFF file begins with 'OFF'");
-    const std::string_view keyword = text.word();
+    std::string_view keyword = text.word();
+    // Files of one widespread collection (ModelNet) go on without a blank: "OFF490 518 0".
+    std::string_view glued =
+        keyword.substr(std::min(keyword.find_last_not_of("0123456789") + 1, keyword.size()));
+    keyword.remove_suffix(glued.size());
     std::string_view flags = keyword;
     if (!flags.ends_with("OFF"))
-        source.fail(text.line(), fmt::format("begins with '{}'; an OFF file begins with 'OFF'",
-                                             keyword.substr(0, 20)));
+        source.fail(text.line(), fmt::format("begins with '{}{}'; an OFF file begins with 'OFF'",
+                                             keyword.substr(0, 20), glued.substr(0, 20)));
     flags.remove_suffix(3);
     Header header;
     if (flags.starts_with("ST")) header.uvs = true, flags.remove_prefix(2);
@@ -29,7 +34,7 @@ Header read_header(const MeshSource& source, TextLines& text) {
         source.fail(text.line(), fmt::format("'{}' has coordinates in other than three dimensions; "
                                              "save it as plain OFF",
                                              keyword.substr(0, 20)));
-    std::string_view first = text.any_word();
+    const std::string_view first = glued.empty() ? text.any_word() : glued;
     if (first == "BINARY")
         source.fail(text.line(), "binary OFF is not read; save it as text, or as PLY");
     header.vertices = text.to_integer(first, "the number of vertices");
@@ -75,6 +80,7 @@ Mesh read_off(const MeshSource& source) {
             {static_cast<float>(text.to_number(words[words.size() - 2], "a texture coordinate")),
              static_cast<float>(text.to_number(words.back(), "a texture coordinate"))});
     }
+    PolygonList polygons(mesh);
     std::vector<std::uint32_t> corners;
     for (std::int64_t i = 0; i < header.faces; ++i) {
         if (!text.next_line())
@@ -91,8 +97,9 @@ Mesh read_off(const MeshSource& source) {
                                         index, header.vertices - 1));
             corners.push_back(static_cast<std::uint32_t>(index));
         }
-        add_polygon(mesh, corners);
+        polygons.add(corners);
     }
+    polygons.cut();
     return mesh;
 }
 

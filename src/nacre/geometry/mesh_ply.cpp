@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "nacre/geometry/mesh_source.h"
+#include "nacre/geometry/polygon.h"
 
 namespace nacre {
 namespace {
@@ -66,15 +67,23 @@ bool is_integer(Type t) { return t != Type::F32 && t != Type::F64; }
 Header read_header(const MeshSource& source) {
     Header header;
     const std::string_view text = source.bytes;
-    if (text.substr(0, 3) != "ply") source.fail("is not a PLY file: it does not begin with 'ply'");
+    header.body = byte_order_mark(text);
+    if (text.substr(header.body, 3) != "ply")
+        source.fail("is not a PLY file: it does not begin with 'ply'");
+    // Lines end as the first one does. Behind end_header a CR LF must not be taken for a CR and a
+    // first byte of binary data, nor the other way round.
+    const std::size_t first_end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line_end = text.substr(first_end, 2) == "\r\n" ? "\r\n"
+                                      : text.substr(first_end, 1) == "\r" ? "\r"
+                                                                          : "\n";
     bool format_seen = false;
     while (true) {
         if (header.body >= text.size())
             source.fail(fmt::format(
                 "is truncated: no 'end_header' in its {} bytes; export it again", text.size()));
-        const std::size_t end = std::min(text.find('\n', header.body), text.size());
+        const std::size_t end = std::min(text.find(line_end, header.body), text.size());
         std::string_view rest = text.substr(header.body, end - header.body);
-        header.body = std::min(end + 1, text.size());
+        header.body = std::min(end + line_end.size(), text.size());
         const std::size_t line = ++header.lines;
         const auto word = [&] {
             const std::size_t from = std::min(rest.find_first_not_of(" \t\r"), rest.size());
@@ -252,7 +261,7 @@ void read_vertices(const MeshSource& source, Body& body, const Element& element,
 }
 
 void read_faces(const MeshSource& source, Body& body, const Element& element, std::int64_t vertices,
-                Mesh& mesh) {
+                Mesh& mesh, PolygonList& polygons) {
     const bool strips = element.name == "tristrips";
     mesh.triangles.reserve(static_cast<std::size_t>(element.count));
     std::vector<std::uint32_t> corners;
@@ -260,7 +269,7 @@ void read_faces(const MeshSource& source, Body& body, const Element& element, st
         if (strips)
             add_strip(mesh, corners);
         else
-            add_polygon(mesh, corners);
+            polygons.add(corners);
         corners.clear();
     };
     for (body.index = 0; body.index < element.count; ++body.index) {
@@ -302,6 +311,7 @@ Mesh read_ply(const MeshSource& source) {
     if (vertices > 0xffffffffll)
         source.fail(fmt::format("has {} vertices; at most 2^32 - 1 can be indexed", vertices));
     Mesh mesh;
+    PolygonList polygons(mesh);
     Body body(source, header);
     for (const Element& element : header.elements) {
         body.element = &element;
@@ -317,12 +327,13 @@ Mesh read_ply(const MeshSource& source) {
         if (element.name == "vertex" && mesh.positions.empty()) {
             read_vertices(source, body, element, mesh);
         } else if (element.name == "face" || element.name == "tristrips") {
-            read_faces(source, body, element, vertices, mesh);
+            read_faces(source, body, element, vertices, mesh, polygons);
         } else {
             for (; body.index < element.count; ++body.index)
                 for (const Property& property : element.properties) skip(body, property);
         }
     }
+    polygons.cut();
     return mesh;
 }
 

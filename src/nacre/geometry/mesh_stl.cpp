@@ -45,8 +45,10 @@ Mesh read_text(const MeshSource& source) {
                                                            "an STL file?",
                                                            found, wanted));
     };
+    bool open = false;
     for (std::string_view w = text.any_word(); !w.empty(); w = text.any_word()) {
         if (same_word(w, "solid") || same_word(w, "endsolid")) {
+            open = same_word(w, "solid");
             while (!text.word().empty()) {  // the rest of the line is a name
             }
             continue;
@@ -69,8 +71,15 @@ Mesh read_text(const MeshSource& source) {
         expect({"endloop", "endfacet"});
         mesh.triangles.push_back(t);
     }
+    if (open)
+        source.fail(text.line(), "the file ends where 'endsolid' should stand; export it again");
     mesh.positions = std::move(welder.points);
     return mesh;
+}
+
+/// Whether what begins with "solid" is text: the count and the numbers of binary files hold zeros.
+bool is_text(std::string_view bytes) {
+    return bytes.substr(0, kHeaderBytes + kTriangleBytes).find('\0') == bytes.npos;
 }
 
 Mesh read_binary(const MeshSource& source, std::size_t count) {
@@ -103,8 +112,9 @@ Mesh read_stl(const MeshSource& source) {
         if (bytes.size() == kHeaderBytes + count * kTriangleBytes)
             return read_binary(source, count);
     }
-    const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    if (start != std::string_view::npos && same_word(bytes.substr(start, 5), "solid"))
+    const std::size_t start = bytes.find_first_not_of(" \t\r\n", byte_order_mark(bytes));
+    if (start != std::string_view::npos && same_word(bytes.substr(start, 5), "solid") &&
+        is_text(bytes))
         return read_text(source);
     if (bytes.size() < kHeaderBytes)
         source.fail(fmt::format(
