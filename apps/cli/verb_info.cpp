@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 ordered_json point(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 ordered_json describe_image(const std::filesystem::path& file) {
-    const Image image = read_image(file);
+    // Asked what is in a file, one shows what is there, be it a picture or not.
+    const Image image = read_image(file, {.any_channels = true});
     ordered_json channels = ordered_json::array();
     const std::size_t n = image.channels.size();
     for (std::size_t c = 0; c < n; ++c) {
@@ -40,8 +41,12 @@ ordered_json describe_image(const std::filesystem::path& file) {
         if (finite < pixels) channel["not_finite"] = pixels - finite;
         channels.push_back(channel);
     }
-    return {{"file", file.string()},  {"kind", "image"},      {"width", image.width},
-            {"height", image.height}, {"channels", channels}, {"metadata", image.metadata}};
+    ordered_json json{{"file", file.string()}, {"kind", "image"},
+                      {"width", image.width},  {"height", image.height},
+                      {"channels", channels},  {"metadata", image.metadata}};
+    if (!image.layers.empty()) json["layers"] = image.layers;
+    if (!image.data_window.empty()) json["data_window"] = image.data_window;
+    return json;
 }
 
 ordered_json describe_mesh(const std::filesystem::path& file) {

@@ -79,7 +79,7 @@ std::optional<Measurement> read_measurement(const std::string& key,
     std::error_code error;
     if (!std::filesystem::exists(file, error)) return {};
     try {
-        const Image image = read_image(file);
+        const Image image = read_image(file, {.any_channels = true});
         const auto text = image.metadata.find("nacre.measurement");
         if (text == image.metadata.end()) return {};
         const json numbers = json::parse(text->second);

@@ -79,7 +79,7 @@ struct Accumulation {
                                             const std::string& key) {
         std::error_code error;
         if (!std::filesystem::exists(file, error)) return {};
-        const Image image = read_image(file);
+        const Image image = read_image(file, {.any_channels = true});
         const auto value = [&](const char* name) {
             const auto at = image.metadata.find(std::string("nacre.") + name);
             return at == image.metadata.end() ? std::string() : at->second;

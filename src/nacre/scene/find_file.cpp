@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "nacre/math/error.h"
+#include "nacre/scene/image.h"
 
 namespace nacre {
 
@@ -13,13 +14,13 @@ std::filesystem::path find_file(const std::string& name,
     std::error_code ignored;
     if (name.empty()) throw InputError(fmt::format("{}: the file name is empty", where));
     if (fs::path(name).is_absolute()) {
-        if (fs::is_regular_file(name, ignored)) return name;
+        if (fs::is_regular_file(without_layer(name), ignored)) return name;
         throw InputError(fmt::format("{}: cannot find '{}'", where, name));
     }
     std::string searched;
     for (const fs::path& folder : folders) {
         const fs::path candidate = folder / name;
-        if (fs::is_regular_file(candidate, ignored)) return candidate;
+        if (fs::is_regular_file(without_layer(candidate), ignored)) return candidate;
         searched += (searched.empty() ? "" : ", ") + (folder.empty() ? "." : folder.string());
     }
     throw InputError(fmt::format("{}: cannot find '{}'; searched in: {}", where, name, searched));

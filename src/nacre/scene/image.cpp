@@ -128,7 +128,17 @@ Vec3f Image::rgb(int x, int y) const {
     return {grey, grey, grey};
 }
 
-Image read_image(const std::filesystem::path& file, const ImageReadOptions& options) {
+std::filesystem::path without_layer(const std::filesystem::path& file) {
+    const std::string text = file.string();
+    const std::size_t hash = text.rfind('#');
+    std::error_code error;
+    if (hash == text.npos || std::filesystem::exists(file, error)) return file;
+    return text.substr(0, hash);
+}
+
+Image read_image(const std::filesystem::path& whole, const ImageReadOptions& options) {
+    const std::filesystem::path file = without_layer(whole);
+    const std::string layer = whole == file ? "" : whole.string().substr(file.string().size() + 1);
     const Format format = format_of_name(file);
     if (format == Format::unknown) fail_unknown(file, readable);
     const std::string bytes = read_file(file);
@@ -141,9 +151,13 @@ Image read_image(const std::filesystem::path& file, const ImageReadOptions& opti
         throw InputError(fmt::format("{}: holds {} data behind the extension of {}; rename it",
                                      file.string(), name(content), name(format)));
     try {
+        if (whole != file && (format != Format::exr || layer.empty()))
+            throw InputError(layer.empty()
+                                 ? "no layer is named behind '#'"
+                                 : fmt::format("only EXR has layers, such as '{}'", layer));
         switch (format) {
             case Format::exr:
-                return image_formats::decode_exr(bytes);
+                return image_formats::decode_exr(bytes, layer, options.any_channels);
             case Format::pfm:
                 return image_formats::decode_pfm(bytes);
             case Format::hdr:
@@ -189,7 +203,7 @@ void check_image_output(const std::filesystem::path& file) {
 }
 
 bool has_image_extension(const std::filesystem::path& file) {
-    return format_of_name(file) != Format::unknown;
+    return format_of_name(without_layer(file)) != Format::unknown;
 }
 
 }  // namespace nacre

@@ -17,6 +17,9 @@ struct Image {
     std::vector<std::string> channels;
     std::vector<float> data;
     std::map<std::string, std::string> metadata;  ///< EXR attributes of type string
+    std::vector<std::string>
+        layers;               ///< of an EXR file: what may stand behind its name, file.exr#layer
+    std::string data_window;  ///< of an EXR file, "x, y to x, y" if it is not the whole picture
 
     Image() = default;
     /// All zero. Throws InputError if a side is not positive or there is no channel.
@@ -37,10 +40,18 @@ struct Image {
 
 struct ImageReadOptions {
     bool raw = false;  ///< PNG, JPEG: do not undo the sRGB curve
+    /// EXR: take the channels of the first part as they are, be they a picture or not.
+    bool any_channels = false;
 };
 
 /// Reads EXR (half, float and integer channels; scan lines or tiles), PFM, HDR (Radiance RGBE), PNG
 /// (8 and 16 bit) and JPEG by extension. Throws InputError "FILE: what is wrong; how to mend".
+///
+/// EXR: a picture is R, G, B (or r, g, b), else a single luminance Y; plain ones or those of a
+/// layer (beauty.R) or part. Where there are several and none is plain, `file` must name one:
+/// "file.exr#layer", "file.exr#part" or "file.exr#part.layer". Its channels become R, G, B, A;
+/// depth, alpha and the like do not stand in for a picture. The picture is the display window; what
+/// is not stored is black.
 Image read_image(const std::filesystem::path& file, const ImageReadOptions& options = {});
 
 /// Writes EXR (float32, ZIP, all channels and metadata), PFM (RGB), PNG (8 bit sRGB of `exposure`
@@ -54,6 +65,9 @@ void write_image(const Image& image, const std::filesystem::path& file, float ex
 /// Throws the InputError that `write_image` would end in (unknown extension, missing or unwritable
 /// folder), so that a long render does not find out at its end.
 void check_image_output(const std::filesystem::path& file);
+
+/// A file's name without the "#layer" behind it, if there is one and no file has the whole name.
+std::filesystem::path without_layer(const std::filesystem::path& file);
 
 /// Whether the extension is one that `read_image` knows.
 bool has_image_extension(const std::filesystem::path& file);

@@ -32,6 +32,7 @@ class Reader {
         if (r.ends_with('\r')) r.remove_suffix(1);
         return r;
     }
+    void skip(std::size_t n) { take(n); }
     /// A word of the header; the one white-space character that ends it is consumed.
     std::string word() {
         const auto space = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
@@ -45,7 +46,8 @@ class Reader {
         const std::string text = word();
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        if (*end || !std::isfinite(value))
+        const bool digits = text.find_first_not_of("0123456789+-.eE") == text.npos;
+        if (*end || !digits || !std::isfinite(value))
             throw InputError(fmt::format("has '{}' for its {}, which is not a number", text, what));
         return value;
     }
@@ -90,6 +92,26 @@ void read_pixels(Reader& in, std::vector<std::uint8_t>& row, int width) {
     }
 }
 
+/// The positive numbers of a line NAME=NUMBER..., one for all three channels or one for each.
+Vec3d factors(std::string_view line, int count) {
+    const std::string text(line.substr(line.find('=') + 1));
+    Vec3d r{1, 1, 1};
+    const char* at = text.c_str();
+    for (int i = 0; i < count; ++i) {
+        char* end = nullptr;
+        r[i] = std::strtod(at, &end);
+        if (end == at || !(r[i] > 0) || !std::isfinite(r[i]))
+            throw InputError(fmt::format("has the line '{}'; {} positive number{} belong{} there",
+                                         line, count, count == 1 ? "" : "s",
+                                         count == 1 ? "s" : ""));
+        at = end;
+    }
+    if (text.find_first_not_of(" \t", at - text.c_str()) != text.npos)
+        throw InputError(fmt::format("has the line '{}'; {} positive number{} belong{} there", line,
+                                     count, count == 1 ? "" : "s", count == 1 ? "s" : ""));
+    return count == 1 ? Vec3d{r.x, r.x, r.x} : r;
+}
+
 }  // namespace
 
 Image decode_pfm(std::string_view bytes) {
@@ -102,6 +124,8 @@ Image decode_pfm(std::string_view bytes) {
     if (scale == 0) throw InputError("has a scale of 0; its sign must tell the byte order");
     if (width != std::floor(width) || height != std::floor(height))
         throw InputError("has a size that is not a whole number");
+    // One white-space character ends the header; in files whose lines end in CR LF, two.
+    if (bytes.substr(2, 2) == "\r\n") in.skip(1);
     // Four bytes a value, nothing compressed: a header that promises more than there is lies.
     check_size(width, height, color ? 3 : 1, static_cast<double>(in.left()),
                1.0 / (color ? 12 : 4));
@@ -143,8 +167,12 @@ Image decode_hdr(std::string_view bytes) {
     Reader in(bytes);
     in.line();  // "#?RADIANCE", whose word differs between programs
     bool rgbe = false;
+    // What the pixels were multiplied by, in turn; divided by it they are radiance again.
+    Vec3d gain{1, 1, 1};
     for (std::string_view line = in.line(); !line.empty(); line = in.line()) {
         if (line == "FORMAT=32-bit_rle_rgbe") rgbe = true;
+        if (line.starts_with("EXPOSURE=")) gain = gain * factors(line, 1);
+        if (line.starts_with("COLORCORR=")) gain = gain * factors(line, 3);
     }
     if (!rgbe) throw InputError("is not of the format 32-bit_rle_rgbe; convert it to RGBE");
     const std::string size(in.line());
@@ -174,7 +202,8 @@ Image decode_hdr(std::string_view bytes) {
             const std::uint8_t* p = &row[std::size_t(x) * 4];
             // A mantissa of 8 bits and an exponent with an offset of 128.
             const float scale = p[3] ? std::ldexp(1.f, p[3] - (128 + 8)) : 0.f;
-            for (int c = 0; c < 3; ++c) image.at(x, y, c) = p[c] * scale;
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y, c) = static_cast<float>(p[c] * scale / gain[c]);
         }
     }
     return image;

@@ -8,7 +8,9 @@
 
 namespace nacre::image_formats {
 
-Image decode_exr(const std::string& bytes);
+/// `layer` and `any_channels`: as in image.h.
+Image decode_exr(const std::string& bytes, const std::string& layer = {},
+                 bool any_channels = false);
 std::string encode_exr(const Image& image);
 
 Image decode_pfm(std::string_view bytes);

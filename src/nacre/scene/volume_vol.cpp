@@ -80,8 +80,13 @@ std::shared_ptr<const VoxelGrid> read_vol(const std::filesystem::path& file) {
         extent[i] = double(header.upper[i]) - header.lower[i];
         box = box && std::isfinite(extent[i]) && extent[i] > 0.0;
     }
-    // A file without a sensible box can still be placed by to_world.
-    if (box) grid->file_placement = Transform::translate(lower) * Transform::scale(extent);
+    if (!box)
+        fail(
+            fmt::format("has a bounding box from ({}, {}, {}) to ({}, {}, {}); its sides must be "
+                        "positive and finite",
+                        header.lower[0], header.lower[1], header.lower[2], header.upper[0],
+                        header.upper[1], header.upper[2]));
+    grid->file_placement = Transform::translate(lower) * Transform::scale(extent);
     return grid;
 }
 
