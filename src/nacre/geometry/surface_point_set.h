@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nacre/geometry/mesh.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -39,7 +40,9 @@ SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t
 /// hold less than one and the mesh lists them in no spatial order. Samples without a point
 /// within 2.5 sqrt(area / count), as on components smaller than one share, are divided among all
 /// points, so that the sum stays the mesh's area. A point that coincides with another may get 0.
-/// @throws InputError as random_points, and unless 1 <= samples_per_point <= 10000.
-void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 32);
+/// @throws InputError as random_points, and unless 1 <= samples_per_point <= 10000; Stopped if
+/// `work` says so.
+void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 32,
+                           const Work& work = {});
 
 }  // namespace nacre
