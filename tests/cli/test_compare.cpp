@@ -176,11 +176,12 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
     } cases[] = {
         {"compare none.xml", "none.xml: cannot be opened"},
         {"compare ball.xml --reference-error 0",
-         "--reference-error: '0' is not a positive share; "
+         "--reference-error: '0' is not a share from 0.0001% to 100%; "
          "write 0.5% or 0.005"},
         {"compare ball.xml --spp many",
-         "--spp: 'many' is not a number of samples; write 16, or several as 4,16"},
-        {"compare ball.xml --repeats 1", "--repeats: 1 is too few; it must be at least 2"},
+         "--spp: 'many' is not a number of samples from 1 to 1073741824; write 16, or several as "
+         "4,16"},
+        {"compare ball.xml --repeats 1", "--repeats: '1' is not a whole number from 2 to 10000"},
         {"compare ball.xml --cases ball", "--cases belongs to --suite, which is missing"},
         {"compare --suite opacity", "--suite: 'opacity' is unknown; known are: translucency"},
         {"compare --suite translucency --cases cube",
