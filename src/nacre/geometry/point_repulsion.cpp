@@ -44,7 +44,7 @@ void check(const RepulsionOptions& options) {
 SurfacePointSet repelled_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
                                 const RepulsionOptions& options, const Work& work) {
     check(options);
-    SurfacePointSet points = random_points(mesh, count, seed);
+    SurfacePointSet points = random_points(mesh, count, seed, work);
     const double area = std::accumulate(points.area.begin(), points.area.end(), 0.0);
     const double radius = 2 * std::sqrt(area / double(count));
     const std::vector<std::uint32_t> component = triangle_components(mesh);

@@ -141,13 +141,14 @@ SurfacePointSet eliminated_points(const Mesh& mesh, std::size_t count, std::uint
                         "the limit is {}: ask for fewer points or fewer candidates "
                         "per point, or use repulsion",
                         count, wanted, kMaxSurfacePoints));
-    const SurfacePointSet dense = random_points(mesh, wanted, seed);
+    const SurfacePointSet dense = random_points(mesh, wanted, seed, work);
     const double area = std::accumulate(dense.area.begin(), dense.area.end(), 0.0);
     const std::vector<std::uint32_t> component = triangle_components(mesh);
     std::vector<SheetPoint> sheet(wanted);
     for (std::size_t i = 0; i < wanted; ++i)
         sheet[i] = {dense.p[i], dense.n[i], component[dense.triangle[i]],
                     static_cast<std::uint32_t>(i)};
+    work.begin("surface points: grid");
     const Crowding crowding(area, count, wanted);
     const SurfaceGrid grid(sheet, crowding.reach());
     const std::vector<bool> left = survivors(grid, crowding, count, work);

@@ -21,8 +21,8 @@ namespace {
 // i, both coordinates in [0, 1).
 template <class Square, class Visit>
 void for_each_strip(const AreaSampler& sampler, std::size_t count, const Square& square,
-                    const Visit& visit, const Work& work = {}) {
-    WorkPhase phase(work, "shares of the surface", count);
+                    const Visit& visit, std::string_view name, const Work& work) {
+    WorkPhase phase(work, name, count);
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, count, 1024), [&](const Range& range) {
         std::uint32_t triangle = sampler.first_triangle(double(range.begin()) / double(count));
@@ -42,7 +42,8 @@ double unit_double(std::uint64_t bits) { return double(bits >> 11) * 0x1p-53; }
 
 }  // namespace
 
-SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed) {
+SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                              const Work& work) {
     check_point_count(count);
     const AreaSampler sampler(mesh);
     SurfacePointSet points;
@@ -52,10 +53,11 @@ SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t
         const double within = unit_double(random.next_bits());
         return std::array{within, unit_double(random.next_bits())};
     };
-    for_each_strip(sampler, count, square, [&](std::size_t i, const SurfacePlace& place) {
+    const auto place_point = [&](std::size_t i, const SurfacePlace& place) {
         set_place(mesh, place, i, points);
         points.area[i] = static_cast<float>(sampler.area() / double(count));
-    });
+    };
+    for_each_strip(sampler, count, square, place_point, "surface points: random", work);
     return points;
 }
 
@@ -88,9 +90,7 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
         const double multiple = double(i) * (std::numbers::phi - 1);
         return std::array{0.5, multiple - std::floor(multiple)};
     };
-    for_each_strip(
-        sampler, samples, square,
-        [&](std::size_t, const SurfacePlace& place) {
+    const auto give_to_owner = [&](std::size_t, const SurfacePlace& place) {
             const Mesh::Triangle& t = mesh.triangles[place.triangle];
             const Vec3d a(mesh.positions[t[0]]);
             const SheetPoint sample = {Point3f(a + (Vec3d(mesh.positions[t[1]]) - a) * place.u +
@@ -111,8 +111,8 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
                 ++without_owner;
             else
                 owned[owner].fetch_add(1, std::memory_order_relaxed);
-        },
-        work);
+    };
+    for_each_strip(sampler, samples, square, give_to_owner, "shares of the surface", work);
     const double one = sampler.area() / double(samples);
     const double common = one * double(without_owner) / double(count);
     for (std::size_t i = 0; i < count; ++i)

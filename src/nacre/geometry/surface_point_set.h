@@ -29,8 +29,9 @@ constexpr std::size_t kMaxSurfacePoints = 50'000'000;
 /// and each gets one point, uniform within it. Every share is area / count. The same seed gives the
 /// same bits for any number of threads.
 /// @throws InputError for a mesh without triangles or area, or with coordinates that are not
-/// finite, and unless 1 <= count <= kMaxSurfacePoints.
-SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed);
+/// finite, and unless 1 <= count <= kMaxSurfacePoints; Stopped if `work` says so.
+SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                              const Work& work = {});
 
 /// Sets the shares of `points`, which lie on `mesh`, to the areas of their Voronoi cells, by
 /// `samples_per_point` times as many regular samples of the surface, each given to the nearest

@@ -29,7 +29,7 @@ SurfacePointSet points_for_spacing(const Mesh& mesh, double spacing, PointMethod
                                    std::uint64_t seed, const SurfacePointOptions& options,
                                    const Work& work) {
     const std::size_t count = point_count(AreaSampler(mesh).area(), spacing);
-    SurfacePointSet points = method == PointMethod::random ? random_points(mesh, count, seed)
+    SurfacePointSet points = method == PointMethod::random ? random_points(mesh, count, seed, work)
                              : method == PointMethod::repulsion
                                  ? repelled_points(mesh, count, seed, options.repulsion, work)
                                  : eliminated_points(mesh, count, seed, options.elimination, work);

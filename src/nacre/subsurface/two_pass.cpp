@@ -23,6 +23,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // Between two looks at whether to stop.
 constexpr int paths_at_a_time = 64;
+// Errors of single shares average out in the sum: few candidates a point will do.
+constexpr float elimination_candidates = 4.f;
 
 class Stopwatch {
   public:
@@ -66,38 +68,6 @@ double advised(double x) {
     return std::ceil(x * (1. + 1e-9) / digit) * digit;
 }
 
-/// Says in the terms of the technique's own options how to get by with as many points as there may
-/// be.
-void check_spacing(const SubsurfaceSettings& settings, double area, double free_path,
-                   float candidates) {
-    const auto least = [&](double limit) {
-        return std::sqrt(2. / std::numbers::sqrt3 * area / limit) / free_path;
-    };
-    const double all = double(kMaxSurfacePoints), eliminated = std::floor(all / candidates);
-    const bool elimination = settings.points == "elimination";
-    const double limit = elimination ? eliminated : all;
-    if (settings.spacing >= least(limit)) return;
-    const auto option = std::ranges::find(subsurface_options(), "spacing", &SubsurfaceOption::name);
-    const double count = limit * std::pow(least(limit) / settings.spacing, 2.);
-    const double spacing = advised(least(limit));
-    // The most points take minutes and more than ten gigabytes.
-    const double easy = advised(std::min(std::sqrt(10.) * spacing, option->high));
-    std::string advice = fmt::format(
-        "set spacing to at least {:g}, or to {:g}, which takes a tenth of the time and memory",
-        spacing, easy);
-    if (spacing > option->high)
-        advice = fmt::format(
-            "spacing would have to be {:g}, and {:g} is the most: the object is too large for its "
-            "medium; make it smaller by a factor of {:.2g}, or choose another technique",
-            spacing, option->high, advised(spacing / option->high));
-    else if (elimination && settings.spacing >= least(all))
-        advice += "; or set points to repulsion";
-    throw InputError(fmt::format(
-        "spacing = {:g} transport mean free paths takes {:.3g} surface points; with points = {} "
-        "the limit is {:.0f}: {}",
-        settings.spacing, count, settings.points, limit, advice));
-}
-
 ShapePoints spread_points(const TechniqueInput& in, double free_path) {
     const RayScene& rays = in.scene.rays;
     const Mesh* mesh = rays.mesh(in.shape);
@@ -110,9 +80,8 @@ ShapePoints spread_points(const TechniqueInput& in, double free_path) {
     // Errors of single shares average out in the sum: the cheap settings do.
     SurfacePointOptions options;
     options.samples_per_point = 16;
-    options.elimination.candidates = 4;
-    check_spacing(in.settings, AreaSampler(*mesh).area(), free_path,
-                  options.elimination.candidates);
+    options.elimination.candidates = elimination_candidates;
+    check_spacing(in.settings, AreaSampler(*mesh).area(), free_path);
     const SurfacePointSet set =
         points_for_spacing(*mesh, in.settings.spacing * free_path, point_method(in.settings.points),
                            in.scene.sampler.seed, options, in.work);
@@ -171,6 +140,35 @@ Translucency::Emergence TwoPass::emerge(const SurfacePoint& exit, const Vec3f& w
     result.radiance = bands_.at(exitance, w) * daylight(w) * Spectral(exit_scale_ * float(1. / pi));
     if (single_) result.radiance += single_->radiance(exit, wo, sampler, w, counts);
     return result;
+}
+
+void check_spacing(const SubsurfaceSettings& settings, double area, double free_path) {
+    const auto least = [&](double limit) {
+        return std::sqrt(2. / std::numbers::sqrt3 * area / limit) / free_path;
+    };
+    const double all = double(kMaxSurfacePoints), eliminated = std::floor(all / elimination_candidates);
+    const bool elimination = settings.points == "elimination";
+    const double limit = elimination ? eliminated : all;
+    if (settings.spacing >= least(limit)) return;
+    const auto option = std::ranges::find(subsurface_options(), "spacing", &SubsurfaceOption::name);
+    const double count = limit * std::pow(least(limit) / settings.spacing, 2.);
+    const double spacing = advised(least(limit));
+    // The most points take minutes and more than ten gigabytes.
+    const double easy = advised(std::min(std::sqrt(10.) * spacing, option->high));
+    std::string advice = fmt::format(
+        "set spacing to at least {:g}, or to {:g}, which takes a tenth of the time and memory",
+        spacing, easy);
+    if (spacing > option->high)
+        advice = fmt::format(
+            "spacing would have to be {:g}, and {:g} is the most: the object is too large for its "
+            "medium; make it smaller by a factor of {:.3g}, or choose another technique",
+            spacing, option->high, advised(spacing / option->high));
+    else if (elimination && settings.spacing >= least(all))
+        advice += "; or set points to repulsion";
+    throw InputError(fmt::format(
+        "spacing = {:g} transport mean free paths takes {:.3g} surface points; with points = {} "
+        "the limit is {:.0f}: {}",
+        settings.spacing, count, settings.points, limit, advice));
 }
 
 DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium) {
