@@ -1,38 +1,43 @@
 #include "apps/cli/compare.h"
 
-#include <unistd.h>
-
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
-#include "apps/cli/progress_bar.h"
+#include "apps/cli/number_option.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/scene/split_words.h"
 
 namespace nacre::cli {
 
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
 double parse_share(const std::string& option, const std::string& text) {
-    double value = 0;
-    char unit = 0, end = 0;
-    const int n = std::sscanf(text.c_str(), "%lf%c%c", &value, &unit, &end);
-    if (n < 1 || n > 2 || (n == 2 && unit != '%') || !(value > 0) || !std::isfinite(value))
-        throw InputError(
-            fmt::format("{}: '{}' is not a positive share; write 0.5% or 0.005", option, text));
-    return n == 2 ? value / 100 : value;
+    const bool percent = text.ends_with('%');
+    const auto value = number_in(std::string_view(text).substr(0, text.size() - percent));
+    const double share = value.value_or(0) / (percent ? 100 : 1);
+    if (!(share >= 1e-6 && share <= 1))
+        throw InputError(fmt::format(
+            "{}: '{}' is not a share from 0.0001% to 100%; write 0.5% or 0.005", option, text));
+    return share;
 }
 
 std::vector<int> parse_counts(const std::string& option, const std::string& text) {
     std::vector<int> counts;
     for (const std::string_view view : split_words(text)) {
         const std::string word(view);
-        int n = 0;
-        char end = 0;
-        if (std::sscanf(word.c_str(), "%d%c", &n, &end) != 1 || n < 1)
+        const auto n = whole_in(word);
+        if (!n || *n < 1 || *n > most_samples)
             throw InputError(fmt::format(
-                "{}: '{}' is not a number of samples; write 16, or several as 4,16", option, word));
-        counts.push_back(n);
+                "{}: '{}' is not a number of samples from 1 to {}; write 16, or several as 4,16",
+                option, word, most_samples));
+        counts.push_back(int(*n));
     }
     if (counts.empty()) throw InputError(fmt::format("{}: no number is given", option));
     return counts;
@@ -53,48 +58,29 @@ std::string build_id() {
     return fmt::format("{} (build {:08x})", version, hash_bytes(bytes) >> 32);
 }
 
-PartProgress::PartProgress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
-
-PartProgress::~PartProgress() { end_line(); }
-
-void PartProgress::end_line() {
-    if (open_) std::fputc('\n', stderr);
-    open_ = false;
+void PartProgress::show(const ExperimentProgress& p) {
+    line_.update([&] {
+        const bool begins = p.part != now_.part;
+        if (begins) start_ = std::chrono::steady_clock::now();
+        now_ = p;
+        const std::string note = p.note.empty() ? "" : (begins ? ": " : ", ") + p.note;
+        if (begins)
+            line_.print_whole(fmt::format("[{}/{}] {}{}", p.part, p.parts, p.what, note));
+        else if (p.share >= 1 && !ended_)
+            line_.print_whole("  " + format_seconds(seconds_since(start_)) + note);
+        ended_ = p.share >= 1;
+    });
 }
 
-void PartProgress::show(const ExperimentProgress& p) {
-    if (quiet_) return;
-    const bool begins = p.part != part_;
-    if (begins) {
-        end_line();
-        part_ = p.part;
-        next_tenth_ = 1;
-        start_ = std::chrono::steady_clock::now();
-    }
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const std::string time = p.share > 0.02 && p.share < 1
-                                 ? format_seconds(seconds * (1 - p.share) / p.share) + " left"
-                                 : format_seconds(seconds);
-    const std::string label = fmt::format("[{}/{}] {}", p.part, p.parts, p.what);
-    if (terminal_) {
-        constexpr int width = 24;
-        const int filled = int(width * std::min(1., p.share));
-        fmt::print(stderr, "\r{:<56} [{}{}] {:3.0f} %  {:<12} {:<18}", label,
-                   std::string(filled, '#'), std::string(width - filled, '.'), 100 * p.share, time,
-                   p.note);
-        std::fflush(stderr);
-        open_ = true;
-    } else if (begins) {
-        fmt::print(stderr, "{}{}{}\n", label, p.note.empty() ? "" : ": ", p.note);
-    } else if (p.share * 10 >= next_tenth_ && p.share < 1 && seconds > 10) {
-        next_tenth_ = int(p.share * 10) + 1;
-        fmt::print(stderr, "  {:.0f} %, {}{}{}\n", 100 * p.share, time, p.note.empty() ? "" : ", ",
-                   p.note);
-    } else if (p.share >= 1 && next_tenth_ <= 10) {
-        next_tenth_ = 11;
-        fmt::print(stderr, "  {}{}{}\n", time, p.note.empty() ? "" : ", ", p.note);
-    }
+std::string PartProgress::text(bool terminal) const {
+    if (ended_) return "";
+    const std::string share = format_share(now_.share, seconds_since(start_));
+    const std::string note = now_.note.empty() ? "" : ", " + now_.note;
+    if (!terminal) return "  " + share + note;
+    constexpr int width = 24;
+    const int filled = int(width * std::min(1., now_.share));
+    return fmt::format("  [{}{}] {:<48}", std::string(filled, '#'),
+                       std::string(width - filled, '.'), share + note);
 }
 
 }  // namespace nacre::cli

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/progress_bar.h"
 #include "apps/cli/scene_input.h"
 #include "apps/cli/verb.h"
 #include "nacre/compare/experiment.h"
@@ -36,21 +37,20 @@ std::filesystem::path reference_store(const CompareOptions& o);
 /// Version, and a hash of the program itself: another build may be faster or slower.
 std::string build_id();
 
-/// One line a part, with a bar on a terminal.
+/// A line for each part that begins and ends, and how far it is in between.
 class PartProgress {
   public:
-    explicit PartProgress(bool quiet);
-    ~PartProgress();
+    explicit PartProgress(bool quiet)
+        : line_(quiet, [this](bool terminal) { return text(terminal); }) {}
     void show(const ExperimentProgress& p);
 
   private:
-    void end_line();
+    std::string text(bool terminal) const;
 
-    bool quiet_, terminal_;
-    int part_ = 0;
-    int next_tenth_ = 0;
-    bool open_ = false;
-    std::chrono::steady_clock::time_point start_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    ExperimentProgress now_;
+    bool ended_ = true;  ///< the part that `now_` tells of
+    StatusLine line_;    ///< last: its thread uses the others
 };
 
 }  // namespace nacre::cli

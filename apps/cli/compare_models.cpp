@@ -5,6 +5,7 @@
 
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
+#include "apps/cli/streams.h"
 #include "nacre/compare/model_document.h"
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_experiment.h"
@@ -93,7 +94,7 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
     fmt::print("{}\n",
                std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     if (!c.complete) {
-        fmt::print(stderr, "nacre: interrupted: models without numbers were not fitted\n");
+        say("nacre: interrupted: models without numbers were not fitted\n");
         return interrupted;
     }
     const bool failed = std::ranges::any_of(

@@ -6,6 +6,7 @@
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress_bar.h"
+#include "apps/cli/streams.h"
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
@@ -91,23 +92,23 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
     ExperimentOptions options = experiment_options(o);
     Scene scene = load(o.input, app);
     options.peer_source = peer_source(o.input, options.settings.front().samples);
-    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;
+    options.warn = [](const std::string& message) { say("nacre: warning: {}\n", message); };
     const Experiment e = [&] {
         PartProgress progress(o.quiet);
         options.progress = [&](const ExperimentProgress& p) { progress.show(p); };
         return run_experiment(scene, options);
     }();
     if (!e.reference.reached && e.reference.samples == 0) {
-        fmt::print(stderr, "nacre: interrupted before the reference's first round was done\n");
+        say("nacre: interrupted before the reference's first round was done\n");
         return interrupted;
     }
     if (!e.reference.reached) {
-        fmt::print(stderr,
-                   "nacre: interrupted: the reference has a noise of {:.2f} % after {} samples a "
-                   "pixel and is kept; the same command goes on\n",
-                   100 * e.reference.error, e.reference.samples);
+        say("nacre: interrupted: the reference has a noise of {:.2f} % after {} samples a "
+            "pixel and is kept; the same command goes on\n",
+            100 * e.reference.error, e.reference.samples);
         return interrupted;
     }
     write_image(e.reference.picture, o.output / "reference.exr");
@@ -120,9 +121,8 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
     fmt::print("{}\n",
                std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     if (!e.complete) {
-        fmt::print(stderr,
-                   "nacre: interrupted: what is finished is in the report and kept; the same "
-                   "command goes on\n");
+        say("nacre: interrupted: what is finished is in the report and kept; the same "
+            "command goes on\n");
         return interrupted;
     }
     return e.any_failed() ? failure : success;

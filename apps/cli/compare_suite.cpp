@@ -4,6 +4,7 @@
 
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
+#include "apps/cli/streams.h"
 #include "nacre/compare/report.h"
 #include "nacre/compare/report_suite.h"
 #include "nacre/math/error.h"
@@ -40,6 +41,7 @@ int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation
     options.block = suite_block;
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;
+    options.warn = [](const std::string& message) { say("nacre: warning: {}\n", message); };
 
     std::vector<SuiteResult> results;
     bool complete = true, failed = false;
@@ -77,10 +79,9 @@ int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation
                    std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     }
     if (!complete) {
-        fmt::print(stderr,
-                   "nacre: interrupted after {} of {} cases; what is finished is kept, the "
-                   "same command goes on\n",
-                   results.size(), cases.size());
+        say("nacre: interrupted after {} of {} cases; what is finished is kept, the "
+            "same command goes on\n",
+            results.size(), cases.size());
         return interrupted;
     }
     return failed ? failure : success;

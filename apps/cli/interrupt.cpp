@@ -19,6 +19,10 @@ const std::atomic<bool>& interrupt_flag() {
         action.sa_flags = SA_RESETHAND | SA_RESTART;  // the second one has its usual effect
         sigaction(SIGINT, &action, nullptr);
         sigaction(SIGTERM, &action, nullptr);
+        // The terminal is gone; unless the user has said that this does not matter (nohup).
+        struct sigaction before {};
+        if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(SIGHUP, &action, nullptr);
         return true;
     }();
     (void)installed;

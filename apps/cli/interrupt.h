@@ -4,8 +4,8 @@
 
 namespace nacre::cli {
 
-/// Installs the handler for SIGINT and SIGTERM on the first call; the flag becomes true when one
-/// arrives.
+/// Installs the handler for SIGINT, SIGTERM and SIGHUP on the first call; the flag becomes true
+/// when one arrives. A SIGHUP that is ignored, as under nohup, stays so.
 const std::atomic<bool>& interrupt_flag();
 
 }  // namespace nacre::cli

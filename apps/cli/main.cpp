@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include "apps/cli/streams.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/scene_node.h"
@@ -122,9 +123,12 @@ int run(std::vector<std::string> args) {
 
 int main(int argc, char** argv) {
     using namespace nacre::cli;
-    const auto complain = [](const char* what) { fmt::print(stderr, "nacre: {}\n", what); };
+    const auto complain = [](const char* what) { say("nacre: {}\n", what); };
+    keep_standard_streams();
     try {
-        return run({argv + 1, argv + argc});
+        const int code = run({argv + 1, argv + argc});
+        finish_standard_output();
+        return code;
     } catch (const nacre::InputError& e) {
         complain(e.what());
         return wrong_input;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <cstdio>
 
 #include "nacre/math/error.h"
@@ -104,7 +106,7 @@ void run_gnuplot(const std::string& script) {
 
 /// The picture, whole or not at all.
 void draw(const Table& table, const fs::path& path, const std::string& set_up) {
-    const fs::path beside = path.string() + ".part";
+    const fs::path beside = path.string() + fmt::format(".{}.part", getpid());
     try {
         run_gnuplot(gnuplot_script(table, beside, set_up));
     } catch (...) {
@@ -122,6 +124,7 @@ void check_table_output(const fs::path& path) {
     if (!path.empty() && extension != ".csv" && extension != ".svg" && extension != ".png")
         throw InputError(
             fmt::format("cannot write '{}': a table becomes .csv, .svg or .png", path.string()));
+    if (!path.empty()) check_output_file(path);
 }
 
 void write_table(const Table& table, const fs::path& path) {
@@ -131,8 +134,8 @@ void write_table(const Table& table, const fs::path& path) {
     }
     check_table_output(path);
     const std::string extension = path.extension().string();
-    fs::path csv = path;
-    write_whole_file(csv.replace_extension(".csv"), csv_of(table));
+    // Beside a picture under a name that nobody gives to anything else: x.csv may be the user's.
+    write_whole_file(extension == ".csv" ? path : fs::path(path.string() + ".csv"), csv_of(table));
     if (extension == ".csv") return;
     draw(table, path,
          extension == ".svg"

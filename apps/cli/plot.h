@@ -29,7 +29,8 @@ struct Table {
 /// Throws InputError unless a table can be written there: before it is computed. Empty means print.
 void check_table_output(const std::filesystem::path& path);
 
-/// Writes the table to a .csv, or to a .svg or .png by gnuplot, with the .csv beside it; every file
+/// Writes the table to a .csv, or to a .svg or .png by gnuplot, with the table
+/// beside it as NAME.svg.csv or NAME.png.csv; every file
 /// appears whole or not at all. Throws as check_table_output, and RunError if a file cannot
 /// be written or gnuplot is absent or fails. An empty path prints the CSV.
 void write_table(const Table& table, const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/cli/number_option.h"
 #include "nacre/layers/skin.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
@@ -25,11 +26,13 @@ std::size_t band_of(const std::string& text) {
 void add_medium_options(CLI::App& app, MediumOptions& o) {
     app.add_option("--material", o.material, "a measured medium, or skin; see 'nacre models'");
     app.add_option("--channel", o.channel, "band of the material: r, g or b (g)");
-    app.add_option("--sigma-s", o.sigma_s, "scattering, mm^-1, instead of a material");
-    app.add_option("--sigma-s-prime", o.sigma_s_prime, "reduced scattering, mm^-1, instead of it");
-    app.add_option("--sigma-a", o.sigma_a, "absorption, mm^-1 (0)");
-    app.add_option("--g", o.g, "mean cosine of a scattering (0)");
-    app.add_option("--eta", o.eta, "index of refraction over that outside (the material's; 1.3)");
+    add_number(app, "--sigma-s", o.sigma_s, any_number, "scattering, mm^-1, instead of a material");
+    add_number(app, "--sigma-s-prime", o.sigma_s_prime, any_number,
+               "reduced scattering, mm^-1, instead of it");
+    add_number(app, "--sigma-a", o.sigma_a, any_number, "absorption, mm^-1 (0)");
+    add_number(app, "--g", o.g, any_number, "mean cosine of a scattering (0)");
+    add_number(app, "--eta", o.eta, any_number,
+               "index of refraction over that outside (the material's; 1.3)");
 }
 
 ProfileMedium profile_medium(const MediumOptions& o) {

@@ -1,10 +1,13 @@
 #include "apps/cli/render_and_save.h"
 
-#include <cstdio>
+#include <unistd.h>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/interrupt.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/progress_bar.h"
+#include "apps/cli/streams.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
 #include "nacre/subsurface/technique.h"
@@ -51,10 +54,27 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
     fmt::print("{}\n", json.dump(2));
 }
 
+/// Before the system kills the program for it.
+void refuse_too_large(const FilmSettings& film) {
+    const bool cropped = film.crop_width > 0;
+    const double width = cropped ? film.crop_width : film.width,
+                 height = cropped ? film.crop_height : film.height;
+    // Sums and squares in double, and the image that is written.
+    constexpr double bytes_a_pixel = 80;
+    const double needed = width * height * bytes_a_pixel,
+                 there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (there > 0 && needed > there)
+        throw InputError(fmt::format(
+            "a picture of {:.0f} x {:.0f} pixels takes {:.1f} GB of memory, and this machine has "
+            "{:.1f}: render it in parts (--crop), or smaller (--size)",
+            width, height, needed / 1e9, there / 1e9));
+}
+
 }  // namespace
 
 int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation) {
-    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
+    refuse_too_large(scene.film);
     const std::atomic<bool>& stop = interrupt_flag();
     const RenderResult result = [&] {
         ProgressBar bar(options.quiet);
@@ -70,29 +90,33 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
     if (!invalid.empty() && options.strict)
         throw RunError(
             fmt::format("{}; --strict: {} was not written", invalid, options.output.string()));
-    if (!invalid.empty()) fmt::print(stderr, "nacre: warning: {}\n", invalid);
+    if (!invalid.empty()) say("nacre: warning: {}\n", invalid);
 
     const auto [least, most] = sample_range(result.film);
     const bool stopped = stop.load() && !result.complete;
-    if (stopped && most == 0) {
-        fmt::print(stderr, "nacre: interrupted before the first sample; nothing was written\n");
-        return interrupted;
+    if (!result.complete && most == 0) {
+        const bool prepared = result.seconds > 0;
+        say("nacre: {} {}: nothing was rendered, nothing was written\n",
+            stopped ? "interrupted" : "timeout",
+            prepared ? "before the first sample" : "during precomputation");
+        return stopped ? interrupted : failure;
     }
-    const std::filesystem::path file = stopped ? partial_path(options.output) : options.output;
+    const std::filesystem::path file =
+        stopped ? unused_name(partial_path(options.output)) : options.output;
     save_render(result, scene, file, {invocation.command_line, version, options.scene_file},
                 options.exposure);
     if (!result.complete)
-        fmt::print(stderr, "nacre: {} with {} to {} of {} samples a pixel\n",
-                   stopped ? "interrupted" : "timeout", least, most, scene.sampler.samples);
+        say("nacre: {} with {} to {} of {} samples a pixel\n", stopped ? "interrupted" : "timeout",
+            least, most, scene.sampler.samples);
     if (!options.quiet)
-        fmt::print(stderr, "nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n",
-                   file.string(), result.film.width(), result.film.height(),
-                   format_seconds(result.seconds + result.precompute_seconds),
-                   format_seconds(result.cpu_seconds + result.precompute_cpu_seconds),
-                   static_cast<double>(result.counts.rays) / 1e6);
+        say("nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n", file.string(),
+            result.film.width(), result.film.height(),
+            format_seconds(result.seconds + result.precompute_seconds),
+            format_seconds(result.cpu_seconds + result.precompute_cpu_seconds),
+            static_cast<double>(result.counts.rays) / 1e6);
     if (!options.quiet)
         for (const Statistic& s : result.statistics)
-            fmt::print(stderr, "nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
+            say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
     if (options.json) print_json(result, scene, file);
     return stopped ? interrupted : success;
 }

@@ -17,7 +17,9 @@ struct SaveOptions {
 };
 
 /// Returns the exit code: `interrupted` after Ctrl-C, when what there is was saved as
-/// NAME.partial.exr. Throws RunError for invalid samples if `strict`, and then writes nothing.
+/// NAME.partial.exr (NAME.partial-2.exr if that exists); `failure` after a timeout before the first
+/// sample. Throws InputError for a picture that the memory does not hold. Throws RunError for
+/// invalid samples if `strict`, and then writes nothing.
 int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation);
 
 }  // namespace nacre::cli

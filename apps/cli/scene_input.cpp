@@ -1,9 +1,9 @@
 #include "apps/cli/scene_input.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 
+#include "apps/cli/number_option.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/demo_scene.h"
@@ -54,13 +54,16 @@ void add_scene_options(CLI::App& app, SceneInput& input) {
     app.add_option(
         "--material", input.material,
         "of a bare mesh: a measured medium or skin (see 'nacre models'; default: marble)");
-    app.add_option("--height-mm", input.height_mm, "height of a bare mesh (default: 100)");
+    add_number(app, "--height-mm", input.height_mm, {1e-9, 1e9},
+               "height of a bare mesh (default: 100)");
 }
 
 bool is_scene_file(const SceneInput& input) { return !is_demo(input) && is_scene(input.scene); }
 
-Scene load(const SceneInput& input, const CLI::App& app) {
+Scene load(const SceneInput& input, const CLI::App& app,
+           std::vector<std::filesystem::path>* files) {
     const std::filesystem::path file = input.scene;
+    if (files) files->push_back(file);
     if (has_image_extension(file))
         throw InputError(fmt::format("{}: is an image; {} takes a scene or a mesh", input.scene,
                                      app.get_name().substr(app.get_name().rfind(' ') + 1)));
@@ -86,6 +89,7 @@ Scene load(const SceneInput& input, const CLI::App& app) {
         LoadOptions load;
         load.defines = parse_defines(input.defines);
         load.mode = mode;
+        load.files = files;
         std::tie(load.width, load.height) = size;
         return load_scene(file, load);
     }
@@ -93,12 +97,7 @@ Scene load(const SceneInput& input, const CLI::App& app) {
     MeshSceneOptions mesh;
     mesh.mode = mode;
     if (!input.material.empty()) mesh.material = input.material;
-    if (app.count("--height-mm")) {
-        if (!(input.height_mm > 0) || !std::isfinite(input.height_mm))
-            throw InputError(fmt::format("--height-mm: {} is not a height; it must be positive",
-                                         input.height_mm));
-        mesh.height_mm = input.height_mm;
-    }
+    if (app.count("--height-mm")) mesh.height_mm = input.height_mm;
     if (size.first) std::tie(mesh.width, mesh.height) = size;
     return load_mesh_scene(file, mesh);
 }
@@ -114,12 +113,19 @@ std::string arguments_of(const SceneInput& input) {
 }
 
 std::pair<int, int> parse_size(const std::string& option, const std::string& text) {
-    int width = 0, height = 0;
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 1 ||
-        height < 1 || width > 65536 || height > 65536)
+    const std::size_t cross = text.find('x');
+    const auto side = [&](std::string_view part) {
+        const auto n = whole_in(part);
+        return n && *n >= 1 && *n <= most_pixels_a_side ? int(*n) : 0;
+    };
+    const std::string_view all(text);
+    const int width = cross == text.npos ? 0 : side(all.substr(0, cross)),
+              height = cross == text.npos ? 0 : side(all.substr(cross + 1));
+    if (width == 0 || height == 0)
         throw InputError(fmt::format(
-            "{}: '{}' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480", option, text));
+            "{}: '{}' is not a size; write WIDTHxHEIGHT in pixels, from 1 to {} each, such as "
+            "640x480",
+            option, text, most_pixels_a_side));
     return {width, height};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The scene that `render` and `compare` are given: a scene file, a bare mesh, or the built-in one.
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,15 @@ struct SceneInput {
     double height_mm = 0;
 };
 
+inline constexpr int most_pixels_a_side = 65536;
+
 /// Declares -D, --size, --mode, --material and --height-mm.
 void add_scene_options(CLI::App& app, SceneInput& input);
 
-/// Loads it. Throws InputError for options that do not belong to this kind of scene.
-Scene load(const SceneInput& input, const CLI::App& app);
+/// Loads it; `files` gets what was read for it. Throws InputError for options that do not belong to
+/// this kind of scene.
+Scene load(const SceneInput& input, const CLI::App& app,
+           std::vector<std::filesystem::path>* files = nullptr);
 
 /// Whether it is a scene file and not a mesh or the built-in scene.
 bool is_scene_file(const SceneInput& input);

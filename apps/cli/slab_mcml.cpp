@@ -4,7 +4,9 @@
 
 #include <set>
 
+#include "apps/cli/output_file.h"
 #include "apps/cli/plot.h"
+#include "apps/cli/progress_bar.h"
 #include "apps/cli/verb.h"
 #include "nacre/layers/mcml_io.h"
 #include "nacre/math/error.h"
@@ -22,6 +24,8 @@ std::vector<fs::path> outputs_of(const std::vector<McmlRun>& runs, const McmlJob
         if (runs.size() > 1)
             throw InputError(fmt::format("{} holds {} runs: give -o a folder for their files",
                                          job.input.string(), runs.size()));
+        check_output_file(job.output);
+        refuse_input_as_output(job.output, {job.input});
         return {job.output};
     }
     const fs::path folder = job.output.empty() ? job.input.parent_path() : job.output;
@@ -36,6 +40,8 @@ std::vector<fs::path> outputs_of(const std::vector<McmlRun>& runs, const McmlJob
             fs::is_directory(files.back()))
             throw InputError(
                 fmt::format("{}: a run cannot write to '{}'", job.input.string(), r.output));
+        check_output_file(files.back());
+        refuse_input_as_output(files.back(), {job.input});
         if (!seen.insert(files.back()).second)
             throw InputError(
                 fmt::format("{}: two runs write to '{}'", job.input.string(), r.output));
@@ -54,7 +60,9 @@ int run_mcml(const McmlJob& job) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
         McmlRun& run = runs[i];
         if (job.photons) run.photons = *job.photons;
-        const SlabMonteCarloResult r = slab_monte_carlo(run.stack, run.options(job.seed));
+        PhotonProgress progress(job.quiet, "--photons");
+        const SlabMonteCarloResult r =
+            slab_monte_carlo(run.stack, run.options(job.seed), progress.work());
         write_whole_file(files[i],
                          files[i].extension() == ".csv" ? slab_csv(run.bins, r) : mco_text(run, r));
         const LayerTotals &t = r.totals, &e = r.error;

@@ -12,6 +12,7 @@ struct McmlJob {
     std::filesystem::path output;
     std::optional<std::uint64_t> photons;  ///< instead of the file's
     std::uint64_t seed = 0;
+    bool quiet = false;  ///< no progress
 };
 
 /// Simulates the runs and writes what MCML would, each under the name that its run gives, without

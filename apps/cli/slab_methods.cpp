@@ -62,12 +62,13 @@ SlabAnswer by_adding_doubling(const SlabTask& task) {
 }
 
 SlabAnswer by_monte_carlo(const SlabTask& task) {
+    const Work alone, &work = task.work ? *task.work : alone;
     SlabMonteCarloOptions options;
     options.photons = task.photons;
     options.seed = task.seed;
     options.cosine = task.cosine;
     if (!task.diffuse) {
-        const SlabMonteCarloResult r = slab_monte_carlo(task.stack, options);
+        const SlabMonteCarloResult r = slab_monte_carlo(task.stack, options, work);
         return {r.totals, r.error};
     }
     // Each beam has photons in proportion to its light, and random numbers of its own.
@@ -76,7 +77,7 @@ SlabAnswer by_monte_carlo(const SlabTask& task) {
     for_diffuse_light(task.stack, [&](double cosine, double share) {
         options.cosine = cosine;
         options.photons = std::max<std::uint64_t>(64, std::uint64_t(share * double(task.photons)));
-        const SlabMonteCarloResult r = slab_monte_carlo(task.stack, options);
+        const SlabMonteCarloResult r = slab_monte_carlo(task.stack, options, work);
         options.seed += std::uint64_t(1) << 32;
         add(answer.totals, r.totals, share);
         error.reflectance = std::hypot(error.reflectance, share * r.error.reflectance);

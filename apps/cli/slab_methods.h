@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nacre/layers/layer.h"
+#include "nacre/math/work.h"
 
 namespace nacre::cli {
 
@@ -16,6 +17,7 @@ struct SlabTask {
     bool diffuse = false;  ///< the same radiance from all directions above, instead of a beam
     double cosine = 1.;    ///< of the beam, in the medium above
     std::uint64_t photons = 1'000'000, seed = 0;
+    const Work* work = nullptr;  ///< of Monte Carlo; may be null
 };
 
 /// What a method cannot tell is not a number.

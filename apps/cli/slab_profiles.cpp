@@ -20,7 +20,8 @@ SlabMonteCarloResult simulate(const SlabTask& task, const SlabBins& bins) {
     options.seed = task.seed;
     options.cosine = task.cosine;
     options.bins = bins;
-    return slab_monte_carlo(task.stack, options);
+    const Work alone;
+    return slab_monte_carlo(task.stack, options, task.work ? *task.work : alone);
 }
 
 double ten_free_paths(const LayerStack& stack) {

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <set>
 
+#include "apps/cli/number_option.h"
 #include "apps/cli/vector_file.h"
 #include "apps/cli/vector_functions.h"
 #include "apps/cli/vector_scattering.h"
@@ -165,7 +166,6 @@ int check_models(const Options& o) {
 int run(const Options& o) {
     if (o.model.empty() == o.vectors.empty())
         throw InputError("give the name of a model, 'all', or --vectors FILE");
-    if (o.samples < 1000) throw InputError("--samples must be at least 1000");
     return o.model.empty() ? check_vectors(o.vectors) : check_models(o);
 }
 
@@ -178,8 +178,8 @@ Action set_up_check(CLI::App& app, const Invocation&) {
                    "JSON of reference vectors, of reflectance (exit code 1 beyond 1e-6) or "
                    "scattering (beyond the "
                    "tolerance of a group): largest deviation per group");
-    app.add_option("--seed", o->seed, "of the samplers' random numbers (1)");
-    app.add_option("--samples", o->samples, "per chi-square test (40000)");
+    add_seed(app, o->seed, "of the samplers' random numbers (1)");
+    add_whole(app, "--samples", o->samples, 1000, 100'000'000, "per chi-square test (40000)");
     return [o] { return run(*o); };
 }
 

@@ -2,19 +2,13 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/compare.h"
+#include "apps/cli/number_option.h"
 #include "nacre/math/error.h"
 
 namespace nacre::cli {
 namespace {
 
 int run(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
-    const auto at_least = [&](const char* option, int value, int least) {
-        if (app.count(option) && value < least)
-            throw InputError(
-                fmt::format("{}: {} is too few; it must be at least {}", option, value, least));
-    };
-    at_least("--repeats", o.repeats, 2);
-    at_least("--threads", o.threads, 1);
     for (const char* option : {"--fit-to", "--metric"})
         if (app.count(option) && !app.count("--models"))
             throw InputError(fmt::format("{} belongs to --models, which is missing", option));
@@ -48,10 +42,11 @@ Action set_up_compare(CLI::App& app, const Invocation& invocation) {
     app.add_option("--reference-error", o->reference_error,
                    "noise of the reference, RMS over blocks of 16 x 16 pixels")
         ->capture_default_str();
-    app.add_option("--repeats", o->repeats, "times that each technique is run, at least 2")
-        ->capture_default_str();
-    app.add_option("--seed", o->seed, "of the random numbers (0)");
-    app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
+    add_whole(app, "--repeats", o->repeats, 2, 10000,
+              "times that each technique is run, at least 2")
+        ->default_str("3");
+    add_seed(app, o->seed, "of the random numbers (0)");
+    add_threads(app, o->threads);
     add_scene_options(app, o->input);
     app.add_option("--peer", o->peers,
                    "other renderers on this machine: cycles, cycles_random_walk, mitsuba; several "

@@ -1,6 +1,7 @@
 // nacre demo: the built-in scene, so that a fresh build has something to show.
 #include <CLI/CLI.hpp>
 
+#include "apps/cli/number_option.h"
 #include "apps/cli/render_and_save.h"
 #include "apps/cli/scene_input.h"
 #include "nacre/scene/demo_scene.h"
@@ -39,12 +40,9 @@ Action set_up_demo(CLI::App& app, const Invocation& invocation) {
     app.add_option("-o,--output", o->output, "picture: .png, .exr, .pfm or .hdr")
         ->capture_default_str();
     app.add_option("--size", o->size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--spp", o->spp, "samples a pixel")->check(CLI::Range(1, 1 << 30));
-    app.add_option("-t,--threads", o->threads, "threads (default: all cores)")
-        ->check(CLI::Range(1, 1 << 16));
-    app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_samples(app, o->spp, "samples a pixel");
+    add_threads(app, o->threads);
+    add_timeout(app, o->timeout)->default_str("50");
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     return [o, invocation] { return run(*o, invocation); };
 }

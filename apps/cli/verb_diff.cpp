@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/number_option.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/verb.h"
 #include "nacre/compare/flip.h"
 #include "nacre/compare/metrics.h"
@@ -154,7 +156,10 @@ void print_plain(const Result& r, const Options& o) {
 }
 
 int run(const Options& o) {
-    if (!o.error_map.empty()) check_image_output(o.error_map);
+    if (!o.error_map.empty()) {
+        check_image_output(o.error_map);
+        refuse_input_as_output(o.error_map, {o.picture, o.reference, o.mask});
+    }
     const Image picture = read_image(o.picture), reference = read_image(o.reference);
     check_size(o.reference, reference, o.picture, picture);
     PixelMask mask;
@@ -187,9 +192,9 @@ Action set_up_diff(CLI::App& app, const Invocation&) {
     app.add_option("--error-map", o->error_map,
                    "image to write: .exr with the signed relative error in R, G, B, and squared.*, "
                    "flip and flip_hdr; other formats with FLIP as grey, white for 1");
-    app.add_option("--ppd", o->pixels_per_degree,
-                   "pixels per degree of the viewer's eye, for FLIP (67.02: 3840 pixels on 0.7 m "
-                   "at 0.7 m)");
+    add_number(app, "--ppd", o->pixels_per_degree, {1, 10000},
+               "pixels per degree of the viewer's eye, for FLIP (67.02: 3840 pixels on 0.7 m "
+               "at 0.7 m)");
     app.add_flag("--json", o->json, "for programs");
     return [o] { return run(*o); };
 }

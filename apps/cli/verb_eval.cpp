@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/number_option.h"
 #include "apps/cli/plot.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
@@ -23,11 +24,18 @@ struct Options {
 /// A direction from "x,y,z", of any length but 0.
 Vec3d parse_direction(const std::string& text, const char* option) {
     Vec3d w;
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &w.x, &w.y, &w.z, &used) != 3 ||
-        std::size_t(used) != text.size())
-        throw InputError(fmt::format("{} '{}' is not a direction; write x,y,z, such as 0.6,0,0.8",
-                                     option, text));
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
+        const auto x = end == text.npos
+                           ? std::nullopt
+                           : number_in(std::string_view(text).substr(begin, end - begin));
+        if (!x)
+            throw InputError(fmt::format(
+                "{} '{}' is not a direction; write x,y,z, such as 0.6,0,0.8", option, text));
+        w[k] = *x;
+        begin = end + 1;
+    }
     if (!(length(w) > 0.) || !std::isfinite(length(w)))
         throw InputError(fmt::format("{} '{}' has no direction", option, text));
     return normalize(w);
@@ -110,7 +118,6 @@ int evaluate(const AnyModel& model, const Options& o) {
 int run(const Options& o) {
     if (o.albedo + o.slice + o.lobe + o.curve > 1)
         throw InputError("give one of --albedo, --slice, --lobe, --curve");
-    if (!(o.nm > 0.) || !std::isfinite(o.nm)) throw InputError("--lambda must be positive, in nm");
     Settings settings;
     for (const std::string& s : o.set) settings.push_back(parse_setting(s));
     const AnyModel model = make_model(o.model, settings);
@@ -151,7 +158,7 @@ Action set_up_eval(CLI::App& app, const Invocation&) {
         ->expected(1, 64);
     app.add_option("--wi", o->wi, "direction to the light, x,y,z with z the normal");
     app.add_option("--wo", o->wo, "direction to the viewer");
-    app.add_option("--lambda", o->nm, "wavelength, nm (550)");
+    add_number(app, "--lambda", o->nm, {0, 1e9, true}, "wavelength, nm (550)");
     app.add_flag("--albedo", o->albedo, "share of light that is scattered: from --wi, or over all");
     app.add_flag("--slice", o->slice, "image over theta_h and theta_d (Burley)");
     app.add_flag("--lobe", o->lobe, "polar plot in the plane of incidence");

@@ -4,11 +4,14 @@
 #include <fstream>
 
 #include "apps/cli/interrupt.h"
+#include "apps/cli/number_option.h"
 #include "apps/cli/progress_bar.h"
+#include "apps/cli/streams.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
+#include "nacre/scene/whole_file.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
@@ -139,7 +142,7 @@ Image compose(const std::vector<Image>& tiles) {
 /// Empty if Ctrl-C came before the picture was complete.
 std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
     const Scene scene = load(file, o);
-    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
     ProgressBar bar(o.quiet);
     RenderOptions options;
     options.threads = o.threads;
@@ -152,21 +155,18 @@ std::optional<Image> picture(const fs::path& file, const Options& o, const Invoc
 }
 
 int run(const Options& o, const Invocation& invocation) {
-    if (!(o.scale > 0 && o.scale <= 16))
-        throw InputError(
-            fmt::format("--scale: {} is out of range: must lie within (0, 16]", o.scale));
     const fs::path scenes = o.scenes.empty() ? shipped_scenes() : fs::path(o.scenes);
     const std::vector<Plate> plates = choose(find_plates(scenes), o.names);
-    std::error_code error;
-    fs::create_directories(o.folder, error);
+    make_output_folder(o.folder);
+    for (const Plate& plate : plates)
+        check_image_output(fs::path(o.folder) / (plate.name + ".png"));
     for (const Plate& plate : plates) {
         const fs::path file = fs::path(o.folder) / (plate.name + ".png");
-        check_image_output(file);
         std::vector<Image> tiles;
         for (const fs::path& scene : plate.scenes) {
             std::optional<Image> tile = picture(scene, o, invocation);
             if (!tile) {
-                fmt::print(stderr, "nacre: interrupted; {} was not written\n", file.string());
+                say("nacre: interrupted; {} was not written\n", file.string());
                 return interrupted;
             }
             tiles.push_back(std::move(*tile));
@@ -185,14 +185,13 @@ Action set_up_gallery(CLI::App& app, const Invocation& invocation) {
     auto o = std::make_shared<Options>();
     app.add_option("names", o->names, "pictures (default: all)");
     app.add_option("-o,--output", o->folder, "folder for the pictures")->required();
-    app.add_option("--scale", o->scale, "size of the pictures, times that of the scenes")
-        ->capture_default_str();
-    app.add_option("--spp", o->spp, "samples a pixel, instead of the scenes'")
-        ->check(CLI::Range(1, 1 << 30));
+    add_number(app, "--scale", o->scale, {0, 16, true},
+               "size of the pictures, times that of the scenes")
+        ->default_str("1");
+    add_samples(app, o->spp, "samples a pixel, instead of the scenes'");
     app.add_option("--scenes", o->scenes,
                    "folder of the scenes (default: those that come with nacre)");
-    app.add_option("-t,--threads", o->threads, "threads (default: all cores)")
-        ->check(CLI::Range(1, 1 << 16));
+    add_threads(app, o->threads);
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     return [o, invocation] { return run(*o, invocation); };
 }

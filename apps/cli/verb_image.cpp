@@ -1,6 +1,8 @@
 // nacre image: from one image format to another, brighter or darker.
 #include <CLI/CLI.hpp>
 
+#include "apps/cli/number_option.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/verb.h"
 #include "nacre/scene/image.h"
 
@@ -14,6 +16,7 @@ struct Options {
 
 int run(const Options& o) {
     check_image_output(o.output);
+    refuse_input_as_output(o.output, {o.input});
     Image image = read_image(o.input);
     const float gain = std::exp2(o.exposure);
     for (int c = 0; c < image.channel_count(); ++c) {
@@ -32,7 +35,7 @@ Action set_up_image(CLI::App& app, const Invocation&) {
     auto o = std::make_shared<Options>();
     app.add_option("input", o->input, "image: .exr, .pfm, .hdr, .png, .jpg")->required();
     app.add_option("-o,--output", o->output, "image: .exr, .pfm, .hdr, .png")->required();
-    app.add_option("--exposure", o->exposure, "stops: every one doubles the light");
+    add_number(app, "--exposure", o->exposure, {-100, 100}, "stops: every one doubles the light");
     return [o] { return run(*o); };
 }
 

@@ -3,8 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/number_option.h"
 #include "apps/cli/plot.h"
 #include "apps/cli/profile_medium.h"
+#include "apps/cli/progress_bar.h"
+#include "apps/cli/streams.h"
 #include "apps/cli/verb.h"
 #include "nacre/bssrdf/profile.h"
 #include "nacre/bssrdf/radial_integral.h"
@@ -22,7 +25,7 @@ struct Options {
     std::vector<std::string> set;
     std::optional<double> rmax;
     std::uint64_t photons = 0, seed = 0;
-    bool cumulative = false, json = false;
+    bool cumulative = false, json = false, quiet = false;
 };
 
 /// R or its integral over the radii, of one profile or of the simulation.
@@ -41,8 +44,6 @@ std::vector<double> ring_edges(const ProfileMedium& m, const Options& o) {
     // Ten lengths of the exponential fall, between 10 and 100 free paths.
     const double to =
         o.rmax.value_or(std::clamp(10. / sigma_tr, 10. * free_path, 100. * free_path));
-    if (!(to > 0.) || !std::isfinite(to))
-        throw InputError(fmt::format("--rmax {:g} must be positive and finite", to));
     // Near the source a hundredth of a free path is fine enough; a simulation has 1e4 bins.
     const double bins = std::clamp(std::ceil(to / (0.01 * free_path)), 100., 1e4);
     constexpr double per_decade = 20.;
@@ -77,9 +78,10 @@ Column simulate(const ProfileMedium& m, const std::vector<double>& edges, const 
     options.seed = o.seed;
     options.bins.radius_width = edges.front();
     options.bins.radius = int(std::lround(edges.back() / edges.front()));
+    const PhotonProgress progress(o.quiet, "--mc");
     const double infinite_depth = std::numeric_limits<double>::infinity();
-    const SlabMonteCarloResult r =
-        slab_monte_carlo({{{m.sigma_s, m.sigma_a, m.g, infinite_depth, m.eta}}}, options);
+    const SlabMonteCarloResult r = slab_monte_carlo(
+        {{{m.sigma_s, m.sigma_a, m.g, infinite_depth, m.eta}}}, options, progress.work());
     const double width = edges.front(), entered = 1. - r.totals.specular;
     Column c{.name = "monte_carlo",
              .simulated = true,
@@ -138,7 +140,7 @@ std::vector<std::unique_ptr<RadialProfile>> chosen_profiles(const ProfileMedium&
             chosen.push_back(make_profile(p->name, medium, own));
         } catch (const InputError& error) {
             if (!own.empty()) throw;
-            fmt::print(stderr, "nacre: left out: {}\n", error.what());
+            say("nacre: left out: {}\n", error.what());
         }
     }
     return chosen;
@@ -253,13 +255,15 @@ Action set_up_profile(CLI::App& app, const Invocation&) {
     app.add_option("--set", o->set, "options of the profile, name=value")
         ->allow_extra_args()
         ->expected(1, 64);
-    app.add_option("--rmax", o->rmax, "largest radius, mm (ten lengths of the exponential fall)");
+    add_number(app, "--rmax", o->rmax, {0, 1e9, true},
+               "largest radius, mm (ten lengths of the exponential fall)");
     app.add_flag("--cumulative", o->cumulative, "what leaves within r instead of R(r)");
-    app.add_option("--mc", o->photons,
-                   "photons of a slab Monte Carlo simulation beside it; all values are then means "
-                   "over rings around the radii");
-    app.add_option("--seed", o->seed, "of the simulation (0)");
+    add_whole(app, "--mc", o->photons, 64, std::uint64_t(most_whole),
+              "photons of a slab Monte Carlo simulation beside it; all values are then means "
+              "over rings around the radii");
+    add_seed(app, o->seed, "of the simulation (0)");
     app.add_flag("--json", o->json, "for programs");
+    app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     app.add_option("-o,--output", o->output, "table or picture: .csv, .svg, .png (default: print)");
     return [o] { return run(*o); };
 }

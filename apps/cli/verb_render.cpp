@@ -1,7 +1,8 @@
 // nacre render: a scene file, or a mesh in a measured translucent medium, as a picture.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
+#include "apps/cli/number_option.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/render_and_save.h"
 #include "apps/cli/scene_input.h"
 #include "nacre/math/error.h"
@@ -24,12 +25,19 @@ struct Options {
 };
 
 void set_crop(FilmSettings& film, const std::string& text) {
-    int x = 0, y = 0, w = 0, h = 0;
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &x, &y, &w, &h, &end) != 4 || w < 1 || h < 1)
-        throw InputError(
-            fmt::format("--crop: '{}' is not a window; write x,y,width,height in pixels", text));
-    film.crop_x = x, film.crop_y = y, film.crop_width = w, film.crop_height = h;
+    int* const places[] = {&film.crop_x, &film.crop_y, &film.crop_width, &film.crop_height};
+    std::size_t begin = 0;
+    for (int i = 0; i < 4; ++i) {
+        const std::size_t end = i < 3 ? text.find(',', begin) : text.size();
+        const auto n = end == text.npos
+                           ? std::nullopt
+                           : whole_in(std::string_view(text).substr(begin, end - begin));
+        if (!n || *n < (i < 2 ? 0 : 1) || *n > most_pixels_a_side)
+            throw InputError(fmt::format(
+                "--crop: '{}' is not a window; write x,y,width,height in pixels", text));
+        *places[i] = int(*n);
+        begin = end + 1;
+    }
 }
 
 /// --technique, --profile and --set.
@@ -56,23 +64,15 @@ void set_technique(Scene& scene, const Options& o, const CLI::App& app) {
 int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     // What is wrong with the command line is said before anything is read, and what is wrong with
     // the output before anything is rendered.
-    const auto at_least_one = [&](const char* option, int value) {
-        if (app.count(option) && value < 1)
-            throw InputError(
-                fmt::format("{}: {} is too few; it must be at least 1", option, value));
-    };
-    at_least_one("--spp", o.spp);
-    at_least_one("--threads", o.threads);
-    if (app.count("--timeout") && !(o.timeout > 0))
-        throw InputError(
-            fmt::format("--timeout: {} seconds are no time; it must be positive", o.timeout));
     SaveOptions save;
     save.output = o.output.empty()
                       ? std::filesystem::path(o.input.scene).stem().replace_extension(".exr")
                       : std::filesystem::path(o.output);
     check_image_output(save.output);
 
-    Scene scene = load(o.input, app);
+    std::vector<std::filesystem::path> read;
+    Scene scene = load(o.input, app, &read);
+    refuse_input_as_output(save.output, read);
     if (!o.crop.empty()) set_crop(scene.film, o.crop);
     if (o.spp) scene.sampler.samples = o.spp;
     if (app.count("--seed")) scene.sampler.seed = o.seed;
@@ -101,11 +101,11 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     app.add_option("-o,--output", o->output,
                    "picture: .exr, .pfm, .hdr or .png (default: name of the scene, .exr)");
     add_scene_options(app, o->input);
-    app.add_option("-t,--threads", o->threads, "threads (default: all cores)");
-    app.add_option("--spp", o->spp, "samples a pixel, instead of the scene's");
-    app.add_option("--seed", o->seed, "of the random numbers, instead of the scene's");
+    add_threads(app, o->threads);
+    add_samples(app, o->spp, "samples a pixel, instead of the scene's");
+    add_seed(app, o->seed, "of the random numbers, instead of the scene's");
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
-    app.add_option("--timeout", o->timeout, "seconds after which to stop and save what there is");
+    add_timeout(app, o->timeout);
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
     std::vector<std::string_view> names;
     for (const TechniqueDescription& t : techniques()) names.push_back(t.name);
@@ -115,7 +115,7 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
                    "diffusion profile of the technique (dipole); see 'nacre models'");
     app.add_option("--set", o->set, "name=value: an option of the technique")
         ->allow_extra_args(false);
-    app.add_option("--exposure", o->exposure, "stops, for .png");
+    add_number(app, "--exposure", o->exposure, {-100, 100}, "stops, for .png");
     app.add_flag("--variance", o->variance, "also write the variance of one sample (EXR)");
     app.add_flag("--strict", o->strict,
                  "fail, and write nothing, if any sample is not finite or negative");

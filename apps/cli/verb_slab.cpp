@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/number_option.h"
+#include "apps/cli/progress_bar.h"
 #include "apps/cli/slab_input.h"
 #include "apps/cli/slab_mcml.h"
 #include "apps/cli/slab_profiles.h"
@@ -21,7 +23,7 @@ struct Options {
     std::uint64_t photons = 1'000'000, seed = 0;
     int bins = 0;
     bool diffuse = false, spectrum = false, radial = false, angular = false, lobe = false;
-    bool json = false;
+    bool json = false, quiet = false;
 };
 
 /// A method's answer, or why it has none.
@@ -122,8 +124,6 @@ SlabTask task_of(const Options& o) {
     SlabTask task;
     if (o.diffuse && o.angle) throw InputError("give either --angle or --diffuse");
     const double angle = o.angle.value_or(0.);
-    if (!(angle >= 0. && angle < 90.))
-        throw InputError(fmt::format("--angle {:g} must be from 0 to below 90 degrees", angle));
     task.diffuse = o.diffuse;
     task.cosine = std::cos(angle * std::numbers::pi / 180.);
     task.photons = o.photons;
@@ -153,12 +153,6 @@ void refuse_contradictions(const Options& o, const CLI::App& app) {
     if ((o.radial || o.angular || o.lobe) && o.diffuse)
         throw InputError("--radial, --angular and --lobe need a beam: leave out --diffuse");
     belongs("--method", !o.lobe, "totals: --lobe is light scattered once, by hk");
-    if (app.count("--bins") && (o.bins < 1 || o.bins > 10000))
-        throw InputError(fmt::format("--bins {} must be from 1 to 10000", o.bins));
-    if (o.rmax && !(*o.rmax > 0. && std::isfinite(*o.rmax)))
-        throw InputError(fmt::format("--rmax {:g} must be positive and finite", *o.rmax));
-    if (o.step && !(*o.step >= 1. && *o.step <= 300.))
-        throw InputError(fmt::format("--step {:g} must be from 1 to 300 nm", *o.step));
     if (o.json && !o.output.empty()) throw InputError("give either --json or -o");
     if (o.file.empty()) return;
     for (const char* option : {"--angle", "--diffuse", "--eta-above", "--eta-below", "--radial",
@@ -172,13 +166,16 @@ int run(const Options& o, const CLI::App& app) {
     refuse_contradictions(o, app);
     if (!o.file.empty())
         return run_mcml({o.file, o.output,
-                         app.count("--photons") ? std::optional(o.photons) : std::nullopt, o.seed});
+                         app.count("--photons") ? std::optional(o.photons) : std::nullopt, o.seed,
+                         o.quiet});
     const std::vector<const SlabMethod*> methods = find_slab_methods(o.methods);
     const bool table = o.spectrum || o.radial || o.angular || o.lobe;
     check_table_output(o.output);
     if (!table && !o.output.empty() && std::filesystem::path(o.output).extension() != ".csv")
         throw InputError("a picture needs one of --spectrum, --radial, --angular and --lobe");
     SlabTask task = task_of(o);
+    const PhotonProgress progress(o.quiet, "--photons");
+    task.work = &progress.work();
     if (app.count("--skin")) {
         const SkinParameters skin = parse_skin(o.skin);
         if (o.spectrum) {
@@ -222,27 +219,31 @@ Action set_up_slab(CLI::App& app, const Invocation&) {
                    "layers of skin: \"melanin=0.03 blood=0.012 oxygenation=0.75\", also "
                    "haemoglobin, optics, eumelanin")
         ->expected(0, 1);
-    app.add_option("--lambda", o->nm, "wavelength of skin, nm (550)");
-    app.add_option("--eta-above", o->eta_above, "index of refraction above the layers (1)");
-    app.add_option("--eta-below", o->eta_below, "and below (1; that of fat under skin)");
-    app.add_option("--angle", o->angle, "of incidence, degrees (0)");
+    add_number(app, "--lambda", o->nm, any_number, "wavelength of skin, nm (550)");
+    add_number(app, "--eta-above", o->eta_above, any_number,
+               "index of refraction above the layers (1)");
+    add_number(app, "--eta-below", o->eta_below, any_number,
+               "and below (1; that of fat under skin)");
+    add_number(app, "--angle", o->angle, {0, 90, false, true}, "of incidence, degrees (0)");
     app.add_flag("--diffuse", o->diffuse, "diffuse light instead of a beam");
     app.add_option("--method", o->methods,
                    "km (Kubelka-Munk), hk (Hanrahan-Krueger, single scattering), ad "
                    "(adding-doubling), mc (Monte Carlo), with commas between, or all")
         ->delimiter(',');
-    app.add_option("--photons", o->photons, "of Monte Carlo (1000000; in an .mci file: its own)");
-    app.add_option("--seed", o->seed, "of Monte Carlo (0)");
+    add_whole(app, "--photons", o->photons, 64, std::uint64_t(most_whole),
+              "of Monte Carlo (1000000; in an .mci file: its own)");
+    add_seed(app, o->seed, "of Monte Carlo (0)");
     app.add_flag("--spectrum", o->spectrum, "reflectance of skin from 400 to 700 nm");
-    app.add_option("--step", o->step, "of the spectrum, nm (10)");
+    add_number(app, "--step", o->step, {1, 300}, "of the spectrum, nm (10)");
     app.add_flag("--radial", o->radial, "power that leaves over the radius, by Monte Carlo");
-    app.add_option("--rmax", o->rmax, "of it, mm (ten transport mean free paths)");
+    add_number(app, "--rmax", o->rmax, {0, 1e9, true}, "of it, mm (ten transport mean free paths)");
     app.add_flag("--angular", o->angular, "power that leaves over the angle of exit");
     app.add_flag("--lobe", o->lobe,
                  "light scattered once in the plane of incidence (10, 40 and 65 degrees, or "
                  "--angle)");
-    app.add_option("--bins", o->bins, "of radius (50) or angle (30)");
+    add_whole(app, "--bins", o->bins, 1, 10000, "of radius (50) or angle (30)");
     app.add_flag("--json", o->json, "for programs");
+    app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     app.add_option("-o,--output", o->output,
                    "table or picture: .csv, .svg, .png; of an .mci file its .mco or .csv, or the "
                    "folder for several (default: print; beside the .mci)");

@@ -29,14 +29,17 @@ TEST_F(CommandLine, WrongCommandLinesAreAnsweredExactlyAndWriteNothing) {
         {"render", "scene is required; see 'nacre help render'"},
         {"render quick.xml --sppp 4", "unknown option '--sppp'; did you mean '--spp'?"},
         {"render quick.xml other.xml", "unexpected argument 'other.xml'; see 'nacre help'"},
-        {"render quick.xml --spp four", "Could not convert: --spp = four; see 'nacre help render'"},
-        {"render quick.xml --spp 0", "--spp: 0 is too few; it must be at least 1"},
-        {"render quick.xml -t 0", "--threads: 0 is too few; it must be at least 1"},
-        {"render quick.xml --timeout -1", "--timeout: -1 seconds are no time; it must be positive"},
+        {"render quick.xml --spp four", "--spp: 'four' is not a whole number from 1 to 1073741824"},
+        {"render quick.xml --spp 0", "--spp: '0' is not a whole number from 1 to 1073741824"},
+        {"render quick.xml -t 0", "--threads: '0' is not a whole number from 1 to 65536"},
+        {"render quick.xml --timeout -1", "--timeout: '-1' is not a number above 0 to 1e+09"},
         {"render quick.xml --size 64",
-         "--size: '64' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480"},
+         "--size: '64' is not a size; write WIDTHxHEIGHT in pixels, from 1 to 65536 each, such as "
+         "640x480"},
         {"render quick.xml --size 0x64",
-         "--size: '0x64' is not a size; write WIDTHxHEIGHT in pixels, such as 640x480"},
+         "--size: '0x64' is not a size; write WIDTHxHEIGHT in pixels, from 1 to 65536 each, such "
+         "as "
+         "640x480"},
         {"render quick.xml --crop 1,2,3",
          "--crop: '1,2,3' is not a window; write x,y,width,height in pixels"},
         {"render quick.xml --crop 20,0,10,10",
@@ -48,7 +51,7 @@ TEST_F(CommandLine, WrongCommandLinesAreAnsweredExactlyAndWriteNothing) {
         {"render quick.xml --material marble",
          "quick.xml: --material is for bare meshes; a scene says itself what its shapes are"},
         {"render flat.obj -D a=1", "flat.obj: -D is for scene files; a mesh has no names to set"},
-        {"render flat.obj --height-mm 0", "--height-mm: 0 is not a height; it must be positive"},
+        {"render flat.obj --height-mm 0", "--height-mm: '0' is not a number from 1e-09 to 1e+09"},
         {"render photo.png", "photo.png: is an image; render takes a scene or a mesh"},
         {"render quick.xml -o a.tiff",
          "a.tiff: '.tiff' is not an image format that nacre writes; known are .exr, .pfm, .hdr, "

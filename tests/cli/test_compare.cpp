@@ -98,6 +98,33 @@ TEST_F(CompareVerb, WhatWasMeasuredIsKept) {
     EXPECT_EQ(report()["rows"][0]["values"], first["rows"][0]["values"]);
 }
 
+/// A reference that was cut short, or holds something else, is made anew with a word, once.
+TEST_F(CompareVerb, ADamagedReferenceIsSetAside) {
+    const std::string command = "compare ball.xml --techniques brdf" + quickly;
+    ASSERT_EQ(nacre(command).code, 0);
+    const fs::path file = fs::directory_iterator(folder_ / "kept")->path();
+    const std::string whole = read(file);
+    const auto damaged = [&](const std::string& bytes) {
+        std::ofstream(file, std::ios::binary) << bytes;
+        const Outcome r = nacre(command);
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_EQ(r.err.find("nacre: warning: the kept reference is damaged ("), 0u) << r.err;
+        EXPECT_TRUE(r.err.ends_with("kept/" + file.filename().string() +
+                                    ".damaged and made anew\n"))
+            << r.err;
+        EXPECT_EQ(read(file.string() + ".damaged"), bytes);
+        EXPECT_EQ(nacre(command).err, "");
+    };
+    damaged(whole.substr(0, whole.size() / 2));
+    damaged("garbage");
+    damaged("");
+    std::string other = whole;  // a count that is none
+    const std::size_t at = other.find("nacre.rounds");
+    ASSERT_NE(at, std::string::npos);
+    other[other.find('1', at)] = 'x';
+    damaged(other);
+}
+
 /// Interrupted once a technique is being rendered: the report has what is finished, and the same
 /// command goes on with the rest.
 TEST_F(CompareVerb, CtrlCKeepsWhatIsFinished) {
@@ -176,11 +203,12 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
     } cases[] = {
         {"compare none.xml", "none.xml: cannot be opened"},
         {"compare ball.xml --reference-error 0",
-         "--reference-error: '0' is not a positive share; "
+         "--reference-error: '0' is not a share from 0.0001% to 100%; "
          "write 0.5% or 0.005"},
         {"compare ball.xml --spp many",
-         "--spp: 'many' is not a number of samples; write 16, or several as 4,16"},
-        {"compare ball.xml --repeats 1", "--repeats: 1 is too few; it must be at least 2"},
+         "--spp: 'many' is not a number of samples from 1 to 1073741824; write 16, or several as "
+         "4,16"},
+        {"compare ball.xml --repeats 1", "--repeats: '1' is not a whole number from 2 to 10000"},
         {"compare ball.xml --cases ball", "--cases belongs to --suite, which is missing"},
         {"compare --suite opacity", "--suite: 'opacity' is unknown; known are: translucency"},
         {"compare --suite translucency --cases cube",

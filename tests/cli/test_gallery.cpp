@@ -74,7 +74,7 @@ TEST_F(Gallery, AnswersWrongCommandLinesExactlyAndWritesNothing) {
         {"gallery -o out --scenes nowhere",
          "no gallery at 'nowhere'; give the folder gallery of the source tree: --scenes"},
         {"gallery -o out --scenes empty", "'empty' holds no scenes"},
-        {"gallery -o out --scale 0", "--scale: 0 is out of range: must lie within (0, 16]"},
+        {"gallery -o out --scale 0", "--scale: '0' is not a number above 0 to 16"},
         {"gallery", "--output is required; see 'nacre help gallery'"},
     };
     fs::create_directories(folder_ / "scenes");

@@ -39,7 +39,7 @@ TEST_F(ModelVerbs, AnswerWrongCommandLinesExactlyAndWriteNothing) {
         {"eval ward --lobe --curve", "give one of --albedo, --slice, --lobe, --curve"},
         {"eval ward --lobe -o a.pdf", "cannot write 'a.pdf': a table becomes .csv, .svg or .png"},
         {"eval ward --lobe --wi 0,1,-1", "--wi must lie above the horizon: z > 0"},
-        {"eval ward --lobe --lambda -1", "--lambda must be positive, in nm"},
+        {"eval ward --lobe --lambda -1", "--lambda: '-1' is not a number above 0 to 1e+09"},
         {"eval ward --set alpha=0 --lobe",
          "ward: alpha_u = 0 is out of range: must lie within (0, 10]"},
         {"eval ward --set alpha --lobe",
@@ -95,7 +95,7 @@ TEST_F(ModelVerbs, PlotsComeWithTheirNumbers) {
         GTEST_SKIP() << "no gnuplot: no pictures";
     for (const char* kind : {"--albedo", "--slice", "--lobe", "--curve"}) {
         ASSERT_EQ(nacre(fmt::format("eval ward {} -o p.png", kind)).code, 0) << kind;
-        EXPECT_EQ(written(), (std::vector<std::string>{"c.csv", "p.csv", "p.png", "s.csv"}));
+        EXPECT_EQ(written(), (std::vector<std::string>{"c.csv", "p.png", "p.png.csv", "s.csv"}));
         EXPECT_GT(read_image(folder_ / "p.png").width, 500) << kind;
     }
     ASSERT_EQ(nacre("eval ward --lobe -o p.svg").code, 0);

@@ -373,6 +373,30 @@ TEST(SlabMonteCarlo, WrongInputIsExplained) {
     EXPECT_EQ(test::message([] { slab_monte_carlo({{layer_of(1., infinite, 0., 1.)}}); }),
               "layer 1: walks in a half space that absorbs 0 of the light per collision need not "
               "end; give it more absorption or a finite thickness");
+    // 1.5 (1e7)^2 collisions to get through.
+    EXPECT_EQ(test::message([] { slab_monte_carlo({{layer_of(1., 1e7, 0., 1.)}}); }),
+              "Monte Carlo: walks through layers of an optical thickness of 1e+07 with so little "
+              "absorption take up to 2e+14 collisions, hours each: adding-doubling answers at "
+              "once; or make the layers thinner or their absorption stronger");
+    // Absorption ends them long before.
+    EXPECT_EQ(test::message([] {
+                  slab_monte_carlo({{layer_of(0.9, 1e7, 0., 1.)}}, {.photons = 64, .bins = {}});
+              }),
+              "no error");
+}
+
+TEST(SlabMonteCarlo, StopsWhenItIsAskedTo) {
+    std::atomic<bool> stop{false};
+    double told = -1.;
+    const Work work(&stop, Work::Clock::time_point::max(), [&](std::string_view, double share) {
+        told = share;
+        if (share > 0.) stop = true;
+    });
+    SlabMonteCarloOptions options;
+    options.photons = 1'000'000'000;  // minutes
+    EXPECT_THROW(slab_monte_carlo({{layer_of(0.999, 50., 0., 1.)}}, options, work), Stopped);
+    EXPECT_GT(told, 0.);
+    EXPECT_LT(told, 0.5);
 }
 
 }  // namespace nacre

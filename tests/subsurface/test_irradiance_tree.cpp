@@ -100,6 +100,25 @@ TEST(IrradianceTree, EverythingIsKeptInTheGroups) {
     EXPECT_NEAR(m[2], power, 1e-3 * power);
 }
 
+TEST(IrradianceTree, PointsWithoutAreaOrPowerChangeNothing) {
+    // Points that coincide with others get no share of the surface: whole groups of them, too.
+    Cloud cloud(500);
+    for (int i = 0; i < 300; ++i) {
+        cloud.p.push_back({0.f, 10.f, 0.f});
+        cloud.area.push_back(0.f);
+        cloud.power.insert(cloud.power.end(), {0.f, 0.f, 0.f});
+    }
+    for (const float epsilon : {0.f, 0.2f, 4.f})
+        for (const Point3f& at : {Point3f(0, 10, 0), Point3f(0, -10, 0), Point3f(10, 0, 0)}) {
+            float m[3];
+            cloud.tree(epsilon).gather(at, kernels(), m);
+            for (int b = 0; b < 3; ++b) {
+                const double expected = brute_force(cloud, at, b);
+                EXPECT_NEAR(m[b], expected, (0.1 * epsilon + 3e-4) * expected) << epsilon;
+            }
+        }
+}
+
 TEST(IrradianceTree, DoesNotDependOnWhereItIs) {
     const Cloud here(4000), there(4000, {512, -256, 1024});
     float a[3], b[3];

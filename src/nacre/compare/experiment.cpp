@@ -92,6 +92,7 @@ Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
     reference.stop = o.stop;
     reference.threads = o.threads;
     reference.block = o.block;
+    reference.warn = o.warn;
     reference.progress = [&](double share, double error) {
         report("reference", 1, share, error > 0 ? fmt::format("noise {:.2f} %", 100 * error) : "");
     };

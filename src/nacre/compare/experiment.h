@@ -31,6 +31,7 @@ struct ExperimentOptions {
     Scene* simplified = nullptr;
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const ExperimentProgress&)> progress = {};
+    std::function<void(const std::string& message)> warn = {};  ///< what does not end the work
 };
 
 struct ExperimentRow {

@@ -36,7 +36,9 @@ void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
         render_options.stop = options.stop;
         if (options.progress)
             render_options.progress = [&](const RenderProgress& p) {
-                options.progress((repeat + double(p.done) / double(p.total)) / options.repeats);
+                // Precomputation is no share of the samples: the repeat has only begun.
+                const double share = p.phase.empty() ? p.share() : 0.;
+                options.progress((repeat + share) / options.repeats);
             };
         const RenderResult r = render_with(scene, make_technique_integrator, render_options);
         if (!r.complete) return;

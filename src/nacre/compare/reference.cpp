@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 #include "nacre/compare/metrics.h"
@@ -74,9 +75,10 @@ struct Accumulation {
         return image;
     }
 
-    /// What was kept under that key; nothing if the file holds something else.
+    /// What was kept under that key; nothing if the file holds something else. Throws InputError if
+    /// it is damaged.
     static std::optional<Accumulation> read(const std::filesystem::path& file,
-                                            const std::string& key) {
+                                            const std::string& key, int width, int height) {
         std::error_code error;
         if (!std::filesystem::exists(file, error)) return {};
         const Image image = read_image(file, {.any_channels = true});
@@ -86,24 +88,57 @@ struct Accumulation {
         };
         if (value("key") != key) return {};
         Accumulation a;
-        a.samples = std::stoi(value("samples"));
-        a.rounds = std::stoi(value("rounds"));
-        a.cpu_seconds = std::stod(value("cpu_seconds"));
+        const auto damaged = [](const std::string& what) { return InputError("it holds " + what); };
+        const auto number = [&](const char* name, double least, double most) {
+            const std::string text = value(name);
+            double x = 0;
+            const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), x);
+            if (wrong != std::errc() || end != text.data() + text.size() ||
+                !(x >= least && x <= most))
+                throw damaged(fmt::format("{} = '{}'", name, text));
+            return x;
+        };
+        a.samples = int(number("samples", 1, 2e9));
+        a.rounds = int(number("rounds", 1, 2e9));
+        a.cpu_seconds = number("cpu_seconds", 0, 1e15);
+        if (image.width != width || image.height != height)
+            throw damaged(fmt::format("{} x {} pixels", image.width, image.height));
         a.mean = Image(image.width, image.height);
         a.variance = a.mean;
         for (int c = 0; c < 3; ++c) {
             const int m = image.channel(names[c]),
                       v = image.channel(std::string("variance.") + names[c]);
-            if (m < 0 || v < 0) return {};
+            if (m < 0 || v < 0) throw damaged("no variances");
             for (int y = 0; y < image.height; ++y)
                 for (int x = 0; x < image.width; ++x) {
                     a.mean.at(x, y, c) = image.at(x, y, m);
                     a.variance.at(x, y, c) = image.at(x, y, v);
+                    if (!std::isfinite(image.at(x, y, m)) || !(image.at(x, y, v) >= 0.f))
+                        throw damaged("values that are not numbers");
                 }
         }
         return a;
     }
 };
+
+/// What was kept, or nothing: a file that is damaged is set aside, and the reason told.
+std::optional<Accumulation> take_up(const std::filesystem::path& file, const std::string& key,
+                                    const FilmSettings& film, const ReferenceOptions& options) {
+    const bool cropped = film.crop_width > 0;
+    try {
+        return Accumulation::read(file, key, cropped ? film.crop_width : film.width,
+                                  cropped ? film.crop_height : film.height);
+    } catch (const std::exception& error) {
+        const std::filesystem::path aside = file.string() + ".damaged";
+        std::error_code failed;
+        std::filesystem::rename(file, aside, failed);
+        if (options.warn)
+            options.warn(fmt::format("the kept reference is damaged ({}): it is {} and made anew",
+                                     error.what(),
+                                     failed ? "left out" : "set aside as " + aside.string()));
+        return {};
+    }
+}
 
 }  // namespace
 
@@ -133,7 +168,8 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
         make_output_folder(options.store);
         reference.file = options.store / fmt::format("{:016x}.exr", hash_bytes(key));
         if (!options.fresh)
-            if (auto kept = Accumulation::read(reference.file, key)) sum = std::move(*kept);
+            if (auto kept = take_up(reference.file, key, scene.film, options))
+                sum = std::move(*kept);
     }
 
     const auto stopped = [&] { return options.stop && options.stop->load(); };
@@ -164,7 +200,7 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
         render_options.stop = options.stop;
         if (options.progress)
             render_options.progress = [&](const RenderProgress& p) {
-                const double now = sum.samples + n * double(p.done) / double(p.total);
+                const double now = sum.samples + (p.phase.empty() ? n * p.share() : 0.);
                 options.progress(std::min(0.99, now / needed), reference.error);
             };
         const RenderResult result = render_with(scene, make_technique_integrator, render_options);

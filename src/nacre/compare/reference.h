@@ -22,6 +22,8 @@ struct ReferenceOptions {
     const std::atomic<bool>* stop = nullptr;
     /// Share of the samples that are thought to be needed, and the noise so far.
     std::function<void(double share, double error)> progress = {};
+    /// Told what is odd and does not end the work: a kept reference that is damaged.
+    std::function<void(const std::string& message)> warn = {};
 };
 
 struct Reference {
@@ -37,7 +39,8 @@ struct Reference {
 
 /// Renders in rounds of independent samples with seeds of their own, and keeps the sum after each
 /// as STORE/KEY.exr, where KEY stands for content_key and technique: a render that is stopped, or
-/// that wants less noise later, goes on from there. Whoever changes how that technique computes
+/// that wants less noise later, goes on from there. A file there that is damaged is set aside as
+/// KEY.exr.damaged and made anew. Whoever changes how that technique computes
 /// asks for a `fresh` one. Throws InputError for unknown techniques and a store that cannot be
 /// made, RunError if it cannot be written.
 Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOptions& options);

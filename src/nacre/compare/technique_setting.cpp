@@ -25,8 +25,7 @@ TechniqueChoice parse_choice(const std::vector<std::string_view>& words) {
         else
             choice.options.emplace_back(name, value);
     }
-    SubsurfaceSettings checked;  // a wrong option is better known before than after an hour
-    for (const auto& [name, value] : choice.options) set_option(checked, name, value);
+    check_choice(choice);  // a wrong option is better known before than after an hour
     return choice;
 }
 

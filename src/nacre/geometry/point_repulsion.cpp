@@ -42,9 +42,9 @@ void check(const RepulsionOptions& options) {
 }  // namespace
 
 SurfacePointSet repelled_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
-                                const RepulsionOptions& options) {
+                                const RepulsionOptions& options, const Work& work) {
     check(options);
-    SurfacePointSet points = random_points(mesh, count, seed);
+    SurfacePointSet points = random_points(mesh, count, seed, work);
     const double area = std::accumulate(points.area.begin(), points.area.end(), 0.0);
     const double radius = 2 * std::sqrt(area / double(count));
     const std::vector<std::uint32_t> component = triangle_components(mesh);
@@ -54,6 +54,7 @@ SurfacePointSet repelled_points(const Mesh& mesh, std::size_t count, std::uint64
         places[i] = {points.triangle[i], points.barycentric[i].x, points.barycentric[i].y};
 
     std::vector<SheetPoint> sheet(count);
+    WorkPhase phase(work, "surface points: repulsion", std::uint64_t(options.sweeps) * count);
     for (int sweep = 0; sweep < options.sweeps; ++sweep) {
         for (std::size_t i = 0; i < count; ++i)
             sheet[i] = {points.p[i], points.n[i], component[points.triangle[i]],
@@ -71,6 +72,7 @@ SurfacePointSet repelled_points(const Mesh& mesh, std::size_t count, std::uint64
                 place = surface.walk(place, move);
                 set_place(mesh, place, point.index, points);
             }
+            phase.advance(grid.end(cell) - grid.begin(cell));
         });
     }
     return points;

@@ -18,6 +18,7 @@
 // Stanford bunny, with its crumpled base, 50 pairs are closer than half the spacing. Voronoi shares
 // (assign_voronoi_shares) weigh such points rightly.
 #include "nacre/geometry/surface_point_set.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -31,8 +32,8 @@ struct RepulsionOptions {
 
 /// `count` points by repulsion, from random_points(mesh, count, seed). All shares are area / count.
 /// The same seed gives the same bits for any number of threads.
-/// @throws InputError as random_points, and for options out of range.
+/// @throws InputError as random_points, and for options out of range; Stopped if `work` says so.
 SurfacePointSet repelled_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
-                                const RepulsionOptions& options = {});
+                                const RepulsionOptions& options = {}, const Work& work = {});
 
 }  // namespace nacre

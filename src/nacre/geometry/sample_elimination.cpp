@@ -51,8 +51,9 @@ class Neighbours {
         float weight;
     };
 
-    Neighbours(const SurfaceGrid& grid, const Crowding& crowding)
+    Neighbours(const SurfaceGrid& grid, const Crowding& crowding, const Work& work)
         : of_cell_(grid.cells()), of_slot_(grid.points().size()) {
+        WorkPhase phase(work, "surface points: neighbours", grid.cells());
         const std::span<const SheetPoint> points = grid.points();
         tbb::parallel_for(std::size_t(0), grid.cells(), [&](std::size_t cell) {
             const SurfaceGrid::Around near = grid.around(cell);
@@ -71,6 +72,7 @@ class Neighbours {
                 of_slot_[slot++] = std::span(of_cell_[cell]).subspan(begin, end - begin);
                 begin = end;
             }
+            phase.advance();
         });
     }
 
@@ -82,8 +84,9 @@ class Neighbours {
 };
 
 // Which slots of the grid are left when all but `count` are eliminated.
-std::vector<bool> survivors(const SurfaceGrid& grid, const Crowding& crowding, std::size_t count) {
-    const Neighbours neighbours(grid, crowding);
+std::vector<bool> survivors(const SurfaceGrid& grid, const Crowding& crowding, std::size_t count,
+                            const Work& work) {
+    const Neighbours neighbours(grid, crowding, work);
     std::vector<float> weight(grid.points().size());
     // Weights only ever fall, so an entry of the heap that is out of date is too high: it comes up
     // early and is put back with its present weight. That spares finding and moving the entries of
@@ -102,6 +105,9 @@ std::vector<bool> survivors(const SurfaceGrid& grid, const Crowding& crowding, s
     }
     std::priority_queue<Entry> heap({}, std::move(entries));
     std::vector<bool> alive(weight.size(), true);
+    constexpr std::size_t at_a_time = 1024;
+    WorkPhase phase(work, "surface points: elimination",
+                    heap.size() - std::min(heap.size(), count));
     while (heap.size() > count) {
         const Entry top = heap.top();
         heap.pop();
@@ -110,6 +116,7 @@ std::vector<bool> survivors(const SurfaceGrid& grid, const Crowding& crowding, s
             continue;
         }
         alive[top.slot] = false;
+        if (heap.size() % at_a_time == 0) phase.advance(at_a_time);
         // Not below 0 by rounding.
         for (const auto& other : neighbours.of(top.slot))
             weight[other.slot] = std::max(0.f, weight[other.slot] - other.weight);
@@ -120,7 +127,7 @@ std::vector<bool> survivors(const SurfaceGrid& grid, const Crowding& crowding, s
 }  // namespace
 
 SurfacePointSet eliminated_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
-                                  const EliminationOptions& options) {
+                                  const EliminationOptions& options, const Work& work) {
     check_point_count(count);
     if (!(options.candidates >= 1.f && options.candidates <= 100.f))
         throw InputError(
@@ -134,16 +141,17 @@ SurfacePointSet eliminated_points(const Mesh& mesh, std::size_t count, std::uint
                         "the limit is {}: ask for fewer points or fewer candidates "
                         "per point, or use repulsion",
                         count, wanted, kMaxSurfacePoints));
-    const SurfacePointSet dense = random_points(mesh, wanted, seed);
+    const SurfacePointSet dense = random_points(mesh, wanted, seed, work);
     const double area = std::accumulate(dense.area.begin(), dense.area.end(), 0.0);
     const std::vector<std::uint32_t> component = triangle_components(mesh);
     std::vector<SheetPoint> sheet(wanted);
     for (std::size_t i = 0; i < wanted; ++i)
         sheet[i] = {dense.p[i], dense.n[i], component[dense.triangle[i]],
                     static_cast<std::uint32_t>(i)};
+    work.begin("surface points: grid");
     const Crowding crowding(area, count, wanted);
     const SurfaceGrid grid(sheet, crowding.reach());
-    const std::vector<bool> left = survivors(grid, crowding, count);
+    const std::vector<bool> left = survivors(grid, crowding, count, work);
 
     // In the order of the candidates, which is that of the triangles.
     std::vector<std::uint32_t> kept;

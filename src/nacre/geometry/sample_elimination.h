@@ -12,6 +12,7 @@
 //   section on surfaces; points on the other side of a thin sheet and on other components do not
 //   count (same_sheet in surface_grid.h).
 #include "nacre/geometry/surface_point_set.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -22,8 +23,8 @@ struct EliminationOptions {
 /// `count` points by elimination from random_points(mesh, candidates * count, seed). All shares are
 /// area / count. The same seed gives the same bits for any number of threads. Takes about 250 bytes
 /// a candidate.
-/// @throws InputError as random_points, and for options out of range.
+/// @throws InputError as random_points, and for options out of range; Stopped if `work` says so.
 SurfacePointSet eliminated_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
-                                  const EliminationOptions& options = {});
+                                  const EliminationOptions& options = {}, const Work& work = {});
 
 }  // namespace nacre

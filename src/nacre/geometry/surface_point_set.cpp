@@ -21,7 +21,8 @@ namespace {
 // i, both coordinates in [0, 1).
 template <class Square, class Visit>
 void for_each_strip(const AreaSampler& sampler, std::size_t count, const Square& square,
-                    const Visit& visit) {
+                    const Visit& visit, std::string_view name, const Work& work) {
+    WorkPhase phase(work, name, count);
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, count, 1024), [&](const Range& range) {
         std::uint32_t triangle = sampler.first_triangle(double(range.begin()) / double(count));
@@ -33,6 +34,7 @@ void for_each_strip(const AreaSampler& sampler, std::size_t count, const Square&
             triangle = place.triangle;
             visit(i, place);
         }
+        phase.advance(range.size());
     });
 }
 
@@ -40,7 +42,8 @@ double unit_double(std::uint64_t bits) { return double(bits >> 11) * 0x1p-53; }
 
 }  // namespace
 
-SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed) {
+SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                              const Work& work) {
     check_point_count(count);
     const AreaSampler sampler(mesh);
     SurfacePointSet points;
@@ -50,14 +53,16 @@ SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t
         const double within = unit_double(random.next_bits());
         return std::array{within, unit_double(random.next_bits())};
     };
-    for_each_strip(sampler, count, square, [&](std::size_t i, const SurfacePlace& place) {
+    const auto place_point = [&](std::size_t i, const SurfacePlace& place) {
         set_place(mesh, place, i, points);
         points.area[i] = static_cast<float>(sampler.area() / double(count));
-    });
+    };
+    for_each_strip(sampler, count, square, place_point, "surface points: random", work);
     return points;
 }
 
-void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point) {
+void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point,
+                           const Work& work) {
     check_point_count(points.size());
     if (samples_per_point < 1 || samples_per_point > 10000)
         throw InputError(
@@ -85,28 +90,29 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
         const double multiple = double(i) * (std::numbers::phi - 1);
         return std::array{0.5, multiple - std::floor(multiple)};
     };
-    for_each_strip(sampler, samples, square, [&](std::size_t, const SurfacePlace& place) {
-        const Mesh::Triangle& t = mesh.triangles[place.triangle];
-        const Vec3d a(mesh.positions[t[0]]);
-        const SheetPoint sample = {Point3f(a + (Vec3d(mesh.positions[t[1]]) - a) * place.u +
-                                           (Vec3d(mesh.positions[t[2]]) - a) * place.v),
-                                   Vec3f(geometric_normal(mesh, place.triangle)),
-                                   component[place.triangle], 0};
-        std::uint32_t owner = ~0u;
-        for (int g = 0; g < 2 && owner == ~0u; ++g) {
-            float nearest = radii[g] * radii[g];
-            grids[g].around(sample.p).for_each([&](std::uint32_t slot) {
-                const SheetPoint& point = grids[g].points()[slot];
-                const float distance = length_squared(point.p - sample.p);
-                if (distance < nearest && same_sheet(point, sample))
-                    nearest = distance, owner = point.index;
-            });
-        }
-        if (owner == ~0u)
-            ++without_owner;
-        else
-            owned[owner].fetch_add(1, std::memory_order_relaxed);
-    });
+    const auto give_to_owner = [&](std::size_t, const SurfacePlace& place) {
+            const Mesh::Triangle& t = mesh.triangles[place.triangle];
+            const Vec3d a(mesh.positions[t[0]]);
+            const SheetPoint sample = {Point3f(a + (Vec3d(mesh.positions[t[1]]) - a) * place.u +
+                                               (Vec3d(mesh.positions[t[2]]) - a) * place.v),
+                                       Vec3f(geometric_normal(mesh, place.triangle)),
+                                       component[place.triangle], 0};
+            std::uint32_t owner = ~0u;
+            for (int g = 0; g < 2 && owner == ~0u; ++g) {
+                float nearest = radii[g] * radii[g];
+                grids[g].around(sample.p).for_each([&](std::uint32_t slot) {
+                    const SheetPoint& point = grids[g].points()[slot];
+                    const float distance = length_squared(point.p - sample.p);
+                    if (distance < nearest && same_sheet(point, sample))
+                        nearest = distance, owner = point.index;
+                });
+            }
+            if (owner == ~0u)
+                ++without_owner;
+            else
+                owned[owner].fetch_add(1, std::memory_order_relaxed);
+    };
+    for_each_strip(sampler, samples, square, give_to_owner, "shares of the surface", work);
     const double one = sampler.area() / double(samples);
     const double common = one * double(without_owner) / double(count);
     for (std::size_t i = 0; i < count; ++i)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nacre/geometry/mesh.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -28,8 +29,9 @@ constexpr std::size_t kMaxSurfacePoints = 50'000'000;
 /// and each gets one point, uniform within it. Every share is area / count. The same seed gives the
 /// same bits for any number of threads.
 /// @throws InputError for a mesh without triangles or area, or with coordinates that are not
-/// finite, and unless 1 <= count <= kMaxSurfacePoints.
-SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed);
+/// finite, and unless 1 <= count <= kMaxSurfacePoints; Stopped if `work` says so.
+SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                              const Work& work = {});
 
 /// Sets the shares of `points`, which lie on `mesh`, to the areas of their Voronoi cells, by
 /// `samples_per_point` times as many regular samples of the surface, each given to the nearest
@@ -39,7 +41,9 @@ SurfacePointSet random_points(const Mesh& mesh, std::size_t count, std::uint64_t
 /// hold less than one and the mesh lists them in no spatial order. Samples without a point
 /// within 2.5 sqrt(area / count), as on components smaller than one share, are divided among all
 /// points, so that the sum stays the mesh's area. A point that coincides with another may get 0.
-/// @throws InputError as random_points, and unless 1 <= samples_per_point <= 10000.
-void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 32);
+/// @throws InputError as random_points, and unless 1 <= samples_per_point <= 10000; Stopped if
+/// `work` says so.
+void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int samples_per_point = 32,
+                           const Work& work = {});
 
 }  // namespace nacre

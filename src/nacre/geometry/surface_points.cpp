@@ -26,14 +26,15 @@ std::size_t point_count(double area, double spacing) {
 }
 
 SurfacePointSet points_for_spacing(const Mesh& mesh, double spacing, PointMethod method,
-                                   std::uint64_t seed, const SurfacePointOptions& options) {
+                                   std::uint64_t seed, const SurfacePointOptions& options,
+                                   const Work& work) {
     const std::size_t count = point_count(AreaSampler(mesh).area(), spacing);
-    SurfacePointSet points = method == PointMethod::random ? random_points(mesh, count, seed)
+    SurfacePointSet points = method == PointMethod::random ? random_points(mesh, count, seed, work)
                              : method == PointMethod::repulsion
-                                 ? repelled_points(mesh, count, seed, options.repulsion)
-                                 : eliminated_points(mesh, count, seed, options.elimination);
+                                 ? repelled_points(mesh, count, seed, options.repulsion, work)
+                                 : eliminated_points(mesh, count, seed, options.elimination, work);
     if (options.shares == PointShares::voronoi)
-        assign_voronoi_shares(mesh, points, options.samples_per_point);
+        assign_voronoi_shares(mesh, points, options.samples_per_point, work);
     return points;
 }
 

@@ -36,8 +36,9 @@ std::size_t point_count(double area, double spacing);
 
 /// Points about `spacing` apart (in the mesh's unit): as many as point_count says. No method
 /// reaches the hexagonal arrangement: the nearest neighbour of a point is 0.7 to 1 spacing away.
-/// @throws InputError as point_count and the method's own function.
+/// @throws InputError as point_count and the method's own function; Stopped if `work` says so.
 SurfacePointSet points_for_spacing(const Mesh& mesh, double spacing, PointMethod method,
-                                   std::uint64_t seed, const SurfacePointOptions& options = {});
+                                   std::uint64_t seed, const SurfacePointOptions& options = {},
+                                   const Work& work = {});
 
 }  // namespace nacre

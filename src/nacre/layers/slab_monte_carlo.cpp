@@ -23,6 +23,12 @@ constexpr std::uint64_t photons_per_batch = 16384, least_batches = 64;
 // Batches whose rows of numbers are held at a time.
 constexpr std::uint64_t batches_at_a_time = 64;
 
+double optical_thickness(const LayerStack& stack) {
+    double tau = 0.;
+    for (const Layer& l : stack.layers) tau += l.optical_thickness();
+    return tau;
+}
+
 void check(const LayerStack& stack, const SlabMonteCarloOptions& o) {
     check(stack);
     const auto demand = [](bool holds, const char* name, double value, const char* range) {
@@ -50,6 +56,12 @@ void check(const LayerStack& stack, const SlabMonteCarloOptions& o) {
             "layer {}: walks in a half space that absorbs {:g} of the light per collision need not "
             "end; give it more absorption or a finite thickness",
             stack.layers.size(), 1. - last.albedo()));
+    if (const double walk = longest_walk_estimate(stack, o); walk > longest_walk)
+        throw InputError(fmt::format(
+            "Monte Carlo: walks through layers of an optical thickness of {:.3g} with so little "
+            "absorption take up to {:.1g} collisions, hours each: adding-doubling answers at once; "
+            "or make the layers thinner or their absorption stronger",
+            optical_thickness(stack), walk));
 }
 
 slab::WalkProblem make_problem(const LayerStack& stack, const SlabMonteCarloOptions& o) {
@@ -99,14 +111,15 @@ struct Sums {
 };
 
 Sums run(const slab::WalkProblem& problem, const slab::TallyLayout& layout, std::uint64_t batches,
-         std::uint64_t per_batch, std::uint64_t seed) {
+         std::uint64_t per_batch, std::uint64_t seed, const Work& work) {
+    WorkPhase phase(work, "photons", batches * per_batch);
     Sums sums(layout.size);
     std::vector<double> rows;
     for (std::uint64_t begin = 0; begin < batches; begin += batches_at_a_time) {
         const std::uint64_t count = std::min(batches_at_a_time, batches - begin);
         rows.assign(std::size_t(count) * layout.size, 0.);
         tbb::parallel_for(std::uint64_t(0), count, [&](std::uint64_t i) {
-            slab::walk_batch(problem, layout, stream_key(seed, begin + i), per_batch,
+            slab::walk_batch(problem, layout, stream_key(seed, begin + i), per_batch, phase,
                              rows.data() + std::size_t(i) * layout.size);
         });
         for (std::uint64_t i = 0; i < count; ++i)
@@ -126,8 +139,24 @@ std::vector<Estimate> profile(const Sums& sums, std::size_t begin, std::size_t c
 
 }  // namespace
 
-SlabMonteCarloResult slab_monte_carlo(const LayerStack& stack,
-                                      const SlabMonteCarloOptions& options) {
+double longest_walk_estimate(const LayerStack& stack, const SlabMonteCarloOptions& o) {
+    // Diffusion takes 3 / 2 L^2 steps of a transport mean free path to get over a distance L, each
+    // of 1 / (1 - g) collisions; what absorption leaves of a photon falls below the threshold of
+    // roulette before.
+    double transport = 0., per_step = 1., absorbed = 0.;
+    for (const Layer& l : stack.layers) {
+        if (!(l.sigma_s > 0.)) continue;
+        const double lost = 1. - l.albedo();
+        transport += l.optical_thickness() * (1. - l.g);
+        per_step = std::max(per_step, 1. / (1. - l.g));
+        const double light = o.roulette_weight > 0. ? -std::log(o.roulette_weight) + 5. : 700.;
+        absorbed = std::max(absorbed, light / lost);  // infinite without absorption
+    }
+    return std::min(absorbed, 1.5 * transport * transport * per_step);
+}
+
+SlabMonteCarloResult slab_monte_carlo(const LayerStack& stack, const SlabMonteCarloOptions& options,
+                                      const Work& work) {
     check(stack, options);
     const slab::WalkProblem problem = make_problem(stack, options);
     const slab::TallyLayout layout(options.bins, stack.layers.size());
@@ -136,11 +165,12 @@ SlabMonteCarloResult slab_monte_carlo(const LayerStack& stack,
 
     const std::uint64_t batches = std::max(least_batches, options.photons / photons_per_batch);
     const std::uint64_t per_batch = (options.photons + batches - 1) / batches;
-    const Sums sums = enter > 0. ? run(problem, layout, batches, per_batch, options.seed) : [&] {
-        Sums none(layout.size);
-        none.batches = double(batches);
-        return none;
-    }();
+    const Sums sums =
+        enter > 0. ? run(problem, layout, batches, per_batch, options.seed, work) : [&] {
+            Sums none(layout.size);
+            none.batches = double(batches);
+            return none;
+        }();
 
     SlabMonteCarloResult result;
     result.photons = batches * per_batch;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "nacre/layers/layer.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -61,9 +62,19 @@ struct SlabMonteCarloResult {
     std::vector<Estimate> reflected_radius_angle, transmitted_radius_angle;  ///< mm^-2 sr^-1
 };
 
-/// Throws InputError for a stack that `check` refuses, for options out of range, and for a half
-/// space that absorbs less than 1e-7 of the light per collision, where walks need not end.
+/// Throws InputError for a stack that `check` refuses, for options out of range, for a half space
+/// that absorbs less than 1e-7 of the light per collision, where walks need not end, and for stacks
+/// in which one of them may take more than `longest_walk` collisions. `work` is told the share of
+/// photons that have ended; throws Stopped if it says so.
 SlabMonteCarloResult slab_monte_carlo(const LayerStack& stack,
-                                      const SlabMonteCarloOptions& options = {});
+                                      const SlabMonteCarloOptions& options = {},
+                                      const Work& work = {});
+
+/// Collisions of a walk through all of the stack, about: the square of the optical thickness by
+/// transport, or what absorption and roulette leave of a walk if that is less. Photons that get so
+/// far are few, but each is waited for: 1e10 take minutes.
+double longest_walk_estimate(const LayerStack& stack, const SlabMonteCarloOptions& options = {});
+/// Beyond it the walk of one photon takes an hour or more.
+constexpr double longest_walk = 1e11;
 
 }  // namespace nacre

@@ -33,6 +33,8 @@ class Walk {
     }
 
     bool alive() const { return alive_ != 0; }
+    /// Photons that have ended.
+    std::uint64_t ended() const { return photons_ - left_ - std::uint64_t(std::popcount(alive_)); }
 
     // Inlined, with all of the loop, so that the packs of two walks stay in registers and overlap.
     [[gnu::always_inline]] void step() {
@@ -298,13 +300,21 @@ class Walk {
 
 template <bool single, bool lateral>
 void walk(const WalkProblem& p, const TallyLayout& l, std::uint64_t key, std::uint64_t photons,
-          double* tally) {
+          WorkPhase& phase, double* tally) {
     // Two packs in turn: while one waits for the result of an instruction, the other computes.
     Walk<single, lateral> a(p, l, stream_key(key, 0), photons / 2, tally);
     Walk<single, lateral> b(p, l, stream_key(key, 1), photons - photons / 2, tally);
+    // A look at whether to stop costs more than a step.
+    constexpr int steps_at_a_time = 4096;
+    std::uint64_t told = 0;
     while (a.alive() || b.alive()) {
-        a.step();
-        b.step();
+        for (int i = 0; i < steps_at_a_time && (a.alive() || b.alive()); ++i) {
+            a.step();
+            b.step();
+        }
+        const std::uint64_t ended = a.ended() + b.ended();
+        phase.advance(ended - told);
+        told = ended;
     }
     a.finish();
     b.finish();
@@ -336,12 +346,12 @@ TallyLayout::TallyLayout(const SlabBins& b, std::size_t layer_count)
 }
 
 void walk_batch(const WalkProblem& problem, const TallyLayout& layout, std::uint64_t key,
-                std::uint64_t photons, double* tally) {
+                std::uint64_t photons, WorkPhase& phase, double* tally) {
     const bool single = problem.layers.size() == 1 && problem.layers[0].length > 0.f;
     const bool lateral = layout.bins.radius > 0;
     const auto f = single ? (lateral ? walk<true, true> : walk<true, false>)
                           : (lateral ? walk<false, true> : walk<false, false>);
-    f(problem, layout, key, photons, tally);
+    f(problem, layout, key, photons, phase, tally);
 }
 
 }  // namespace nacre::slab

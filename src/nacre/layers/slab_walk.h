@@ -39,8 +39,8 @@ struct WalkProblem {
 };
 
 /// Walks `photons` photons and adds what becomes of their weights to the `layout.size` numbers of
-/// `tally`.
+/// `tally`. `phase` counts photons that have ended.
 void walk_batch(const WalkProblem& problem, const TallyLayout& layout, std::uint64_t key,
-                std::uint64_t photons, double* tally);
+                std::uint64_t photons, WorkPhase& phase, double* tally);
 
 }  // namespace nacre::slab

@@ -19,7 +19,7 @@ constexpr float tolerance = 0.1f;
 }  // namespace
 
 DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell_size,
-                           int max_cells) {
+                           int max_cells, const Work& work) {
     const Vec3f d = bounds.diagonal();
     const float longest = std::max({d.x, d.y, d.z});
     size_ = std::max(cell_size, longest / static_cast<float>(max_cells - 2));
@@ -35,7 +35,9 @@ DistanceGrid::DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell
     const auto blocks = [](unsigned n) { return (n + block - 1) / block; };
     const unsigned bx = blocks(nx_), by = blocks(ny_), bz = blocks(nz_);
     const float unlimited = length(d) + 4.f * size_;
+    WorkPhase phase(work, "distance grid", bx * by * bz);
     tbb::parallel_for(0u, bx * by * bz, [&](unsigned b) {
+        phase.advance();
         const unsigned x0 = b % bx * block, y0 = b / bx % by * block, z0 = b / (bx * by) * block;
         const Point3f middle =
             origin_ +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nacre/geometry/ray_scene.h"
+#include "nacre/math/work.h"
 
 namespace nacre {
 
@@ -21,8 +22,9 @@ class DistanceGrid {
     DistanceGrid() = default;
     /// Covers `bounds` with cells of about `cell_size`, but at most `max_cells` along the longest
     /// side. The distance is to all shapes of `rays`, exact at the cell's centre, less half its
-    /// diagonal.
-    DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell_size, int max_cells);
+    /// diagonal. Throws Stopped if `work` says so.
+    DistanceGrid(const RayScene& rays, const Box3f& bounds, float cell_size, int max_cells,
+                 const Work& work = {});
 
     Cell locate(const Point3f& p) const {
         if (cells_.empty()) return {};

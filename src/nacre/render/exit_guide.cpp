@@ -36,7 +36,8 @@ Vec3f refract_in(const Vec3f& outside, const Vec3f& n, float cos_outside, float 
 }  // namespace
 
 ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
-                     std::span<const std::uint32_t> boundary, float eta, DistanceGrid& grid)
+                     std::span<const std::uint32_t> boundary, float eta, DistanceGrid& grid,
+                     const Work& work)
     : eta_(eta) {
     const Vec3f sigma_t = medium.sigma_t->rgb();
     sigma_t_ = (sigma_t.x + sigma_t.y + sigma_t.z) / 3.f * medium.scale;
@@ -67,7 +68,9 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
         if (!best) return {};
         return scene.rays.surface_point(Ray{p, {0.f, 0.f, 1.f}}, *best);
     };
+    WorkPhase phase(work, "exit guide", near.size());
     tbb::parallel_for(std::size_t(0), near.size(), [&](std::size_t i) {
+        phase.advance();
         const Point3f c = grid.center(near[i]);
         const auto first = nearest(c, 2.f * limit);
         // Cells that are outside as a whole see no collisions.

@@ -44,9 +44,9 @@ class ExitGuide {
     ExitGuide() = default;
     /// Guides paths in `medium` out through `boundary` (shapes), all of which are smooth boundaries
     /// of relative index `eta`. Marks the cells of `grid` near the boundary. Without lights worth
-    /// guiding to, `active` is false.
+    /// guiding to, `active` is false. Throws Stopped if `work` says so.
     ExitGuide(const Scene& scene, const Medium& medium, std::span<const std::uint32_t> boundary,
-              float eta, DistanceGrid& grid);
+              float eta, DistanceGrid& grid, const Work& work = {});
 
     bool active() const { return !cells_.empty() && !targets_.empty(); }
     std::size_t memory() const { return cells_.size() * sizeof(Cell); }

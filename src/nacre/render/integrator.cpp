@@ -9,11 +9,11 @@
 
 namespace nacre {
 
-std::unique_ptr<Integrator> make_integrator(const Scene& scene) {
+std::unique_ptr<Integrator> make_integrator(const Scene& scene, const Work& work) {
     const std::string& type = scene.integrator.type;
     if (type == "ray") return std::make_unique<PathTracer>(scene, true);
     if (type == "path") return std::make_unique<PathTracer>(scene, false);
-    if (type == "volpath") return std::make_unique<VolumePathTracer>(scene);
+    if (type == "volpath") return std::make_unique<VolumePathTracer>(scene, work);
     if (type == "legacy") return std::make_unique<LegacyShading>(scene);
     throw InputError(fmt::format("integrator '{}' is not known; known are: {}", type,
                                  fmt::join(integrator_types(), ", ")));

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "nacre/math/work.h"
 #include "nacre/render/sampler.h"
 #include "nacre/scene/scene.h"
 
@@ -41,8 +42,8 @@ class Integrator {
 };
 
 /// The integrator named by scene.integrator. `scene` outlives it. Precomputation (distance grid)
-/// happens here. Throws InputError for an unknown type.
-std::unique_ptr<Integrator> make_integrator(const Scene& scene);
+/// happens here. Throws InputError for an unknown type, Stopped if `work` says so.
+std::unique_ptr<Integrator> make_integrator(const Scene& scene, const Work& work = {});
 
 /// The types that make_integrator knows.
 std::span<const std::string_view> integrator_types();

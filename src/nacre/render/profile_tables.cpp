@@ -16,9 +16,10 @@ std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, cons
 }
 
 ProfileTables::ProfileTables(const Medium& medium, float eta, std::string_view profile,
-                             const Bands& bands)
+                             const Bands& bands, const Work& work)
     : bands_(bands) {
     const std::vector<ProfileMedium> media = medium_in_bands(medium, eta, bands);
+    WorkPhase phase(work, "tables of the profile", media.size());
     for (std::size_t first = 0; first < media.size(); first += 4) {
         std::vector<std::unique_ptr<RadialProfile>> profiles;
         std::vector<const RadialProfile*> pointers;
@@ -27,6 +28,7 @@ ProfileTables::ProfileTables(const Medium& medium, float eta, std::string_view p
             pointers.push_back(profiles.back().get());
             totals_.push_back(float(profiles.back()->total()));
             includes_single_scattering_ = profiles.back()->includes_single_scattering();
+            phase.advance();
         }
         groups_.emplace_back(pointers);
     }

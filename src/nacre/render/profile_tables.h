@@ -1,6 +1,7 @@
 #pragma once
 // A diffusion profile of a scene's medium, tabulated for rendering.
 #include "nacre/bssrdf/radial_table.h"
+#include "nacre/math/work.h"
 #include "nacre/scene/medium.h"
 #include "nacre/spectrum/bands.h"
 
@@ -12,8 +13,9 @@ std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, cons
 /// R(r) of the medium in every band. Lengths are scene units.
 class ProfileTables {
   public:
-    /// Throws InputError as make_profile.
-    ProfileTables(const Medium& medium, float eta, std::string_view profile, const Bands& bands);
+    /// Throws InputError as make_profile, Stopped if `work` says so.
+    ProfileTables(const Medium& medium, float eta, std::string_view profile, const Bands& bands,
+                  const Work& work = {});
 
     /// R at squared distance r2 in the lanes of a path.
     Spectral eval(float r2, const Wavelengths& w) const;

@@ -8,7 +8,9 @@
 #include <xmmintrin.h>
 
 #include <chrono>
+#include <memory>
 #include <mutex>
+#include <string>
 
 #include "nacre/math/error.h"
 #include "nacre/render/filter.h"
@@ -62,12 +64,23 @@ constexpr int tile_side = 16;
 /// Samples a pixel gets in one pass at most: an interrupted picture is even to within that many.
 constexpr int largest_pass = 16;
 
+/// When a render that begins now has to end.
+Clock::time_point deadline_of(const RenderOptions& options) {
+    // A hundred years are for ever, and fit the clock.
+    constexpr double longest_s = 3e9;
+    if (!(options.timeout_s > 0)) return Clock::time_point::max();
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                              std::min(options.timeout_s, longest_s)));
+}
+
 class RenderJob {
   public:
-    RenderJob(const Scene& scene, const Integrator& integrator, const RenderOptions& options)
+    RenderJob(const Scene& scene, const Integrator& integrator, const RenderOptions& options,
+              Clock::time_point deadline)
         : scene_(scene),
           integrator_(integrator),
           options_(options),
+          deadline_(deadline),
           film_(scene.film),
           filter_(scene.film.filter),
           sampler_(Sampler::kind_from_name(scene.sampler.type), scene.sampler.seed,
@@ -112,7 +125,7 @@ class RenderJob {
   private:
     bool interrupted() {
         if (options_.stop && options_.stop->load(std::memory_order_relaxed)) stopped_ = true;
-        if (options_.timeout_s > 0 && seconds_since(start_) >= options_.timeout_s) stopped_ = true;
+        if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) stopped_ = true;
         return stopped_;
     }
 
@@ -189,6 +202,7 @@ class RenderJob {
     const Scene& scene_;
     const Integrator& integrator_;
     const RenderOptions& options_;
+    const Clock::time_point deadline_;
     Film film_;
     const Filter filter_;
     const Sampler sampler_;
@@ -200,6 +214,21 @@ class RenderJob {
     double last_report_ = 0;
     RayCounts counts_;
 };
+
+/// What precomputation tells, as progress of the render.
+Work::Tell told_of(const RenderOptions& options) {
+    if (!options.progress) return {};
+    struct Phase {
+        std::string name;
+        Clock::time_point start;
+    };
+    return [&options, now = std::make_shared<Phase>()](std::string_view phase, double share) {
+        if (phase != now->name) *now = {std::string(phase), Clock::now()};
+        constexpr double parts = 1e6;
+        options.progress(
+            {std::uint64_t(parts * share), std::uint64_t(parts), seconds_since(now->start), phase});
+    };
+}
 
 /// Runs `work` with as many threads as asked for.
 RenderResult with_threads(int threads, const std::function<RenderResult()>& work) {
@@ -215,18 +244,30 @@ RenderResult with_threads(int threads, const std::function<RenderResult()>& work
 
 RenderResult render(const Scene& scene, const Integrator& integrator,
                     const RenderOptions& options) {
-    return with_threads(options.threads,
-                        [&] { return RenderJob(scene, integrator, options).run(); });
+    return with_threads(options.threads, [&] {
+        return RenderJob(scene, integrator, options, deadline_of(options)).run();
+    });
 }
 
 RenderResult render_with(const Scene& scene, MakeIntegrator make, const RenderOptions& options) {
     return with_threads(options.threads, [&] {
         const Clock::time_point start = Clock::now();
         const double cpu_start = process_cpu_seconds();
-        const std::unique_ptr<Integrator> integrator = make(scene);
+        const Clock::time_point deadline = deadline_of(options);
+        std::unique_ptr<Integrator> integrator;
+        try {
+            const Work work(options.stop, deadline, told_of(options));
+            integrator = make(scene, work);
+        } catch (const Stopped&) {
+            RenderResult nothing{.film = Film(scene.film), .counts = {}};
+            nothing.complete = false;
+            nothing.precompute_seconds = seconds_since(start);
+            nothing.precompute_cpu_seconds = process_cpu_seconds() - cpu_start;
+            return nothing;
+        }
         const double precompute = seconds_since(start);
         const double precompute_cpu = process_cpu_seconds() - cpu_start;
-        RenderResult result = RenderJob(scene, *integrator, options).run();
+        RenderResult result = RenderJob(scene, *integrator, options, deadline).run();
         result.precompute_seconds = precompute;
         result.precompute_cpu_seconds = precompute_cpu;
         result.statistics = integrator->statistics();

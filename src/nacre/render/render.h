@@ -2,6 +2,7 @@
 // The render loop: tiles in parallel, passes over the samples, progress, interruption.
 #include <atomic>
 #include <functional>
+#include <string_view>
 
 #include "nacre/render/film.h"
 #include "nacre/render/integrator.h"
@@ -9,13 +10,18 @@
 namespace nacre {
 
 struct RenderProgress {
-    std::uint64_t done, total;  ///< samples
-    double seconds;             ///< since the start
+    std::uint64_t done, total;    ///< samples; of precomputation, whatever its phase counts
+    double seconds;               ///< since the start of the render or of the phase
+    std::string_view phase = {};  ///< of precomputation; empty while samples are drawn
+
+    double share() const { return total ? double(done) / double(total) : 0.; }
 };
 
 struct RenderOptions {
-    int threads = 0;       ///< 0: all cores
-    double timeout_s = 0;  ///< 0: none; when reached the render stops after the samples in flight
+    int threads = 0;  ///< 0: all cores
+    /// 0: none; when reached, from the start of precomputation on, the render stops after the
+    /// samples in flight.
+    double timeout_s = 0;
     const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler
     /// Called from one thread at a time, a few times a second and at the end.
     std::function<void(const RenderProgress&)> progress = {};
@@ -23,8 +29,10 @@ struct RenderOptions {
 
 struct RenderResult {
     Film film;
-    bool complete = true;  ///< false: stopped or timed out; the film holds what there is
-    double seconds = 0;    ///< wall time of the render without precomputation
+    /// False: stopped or timed out; the film holds what there is, nothing if that was in
+    /// precomputation.
+    bool complete = true;
+    double seconds = 0;  ///< wall time of the render without precomputation
     double cpu_seconds = 0;
     double precompute_seconds = 0, precompute_cpu_seconds = 0;
     RayCounts counts;
@@ -41,8 +49,9 @@ struct RenderResult {
 /// around a lamp is the lux from that lamp. Throws InputError if illuminance is asked of a camera
 /// whose rays are parallel.
 RenderResult render(const Scene& scene, const RenderOptions& options = {});
-/// The same with an integrator that `make` makes; what that takes is precomputation.
-using MakeIntegrator = std::unique_ptr<Integrator> (*)(const Scene& scene);
+/// The same with an integrator that `make` makes; what that takes is precomputation, which is
+/// stopped and timed out too.
+using MakeIntegrator = std::unique_ptr<Integrator> (*)(const Scene& scene, const Work& work);
 RenderResult render_with(const Scene& scene, MakeIntegrator make,
                          const RenderOptions& options = {});
 /// The same with a given integrator in place of the one that the scene names.

@@ -21,15 +21,16 @@ bool overlap(const Box3f& a, const Box3f& b) {
 
 }  // namespace
 
-VolumePathTracer::VolumePathTracer(const Scene& scene)
+VolumePathTracer::VolumePathTracer(const Scene& scene, const Work& work)
     : scene_(scene),
       lights_(scene.lights, scene.rays.bounds(), true),
       has_null_(std::ranges::any_of(
           scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {
-    for (const MediumPtr& medium : scene.media) prepare(*medium);
+    for (const MediumPtr& medium : scene.media) prepare(*medium, work);
 }
 
-void VolumePathTracer::prepare(const Medium& medium) {
+void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
+    work.check();
     MediumInfo& info = media_[&medium];
     if (!medium.homogeneous()) info.majorants = MajorantGrid(medium);
     std::vector<std::uint32_t> boundary;
@@ -59,9 +60,10 @@ void VolumePathTracer::prepare(const Medium& medium) {
     const Vec3f sigma_t = medium.sigma_t->rgb();
     const float thickest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * medium.scale;
     if (!(thickest > 0.f)) return;
-    info.grid = DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells);
+    info.grid =
+        DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells, work);
     if (scene_.integrator.guided_exits && smooth && !info.connect)
-        info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid);
+        info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid, work);
 }
 
 Spectral VolumePathTracer::radiance(const Ray& ray, Sampler& sampler,

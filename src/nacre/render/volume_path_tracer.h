@@ -21,7 +21,7 @@ namespace nacre {
 
 class VolumePathTracer : public Integrator {
   public:
-    explicit VolumePathTracer(const Scene& scene);
+    explicit VolumePathTracer(const Scene& scene, const Work& work = {});
 
     Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
                       RayCounts& counts) const override;
@@ -38,7 +38,7 @@ class VolumePathTracer : public Integrator {
 
   private:
     friend class VolumePath;
-    void prepare(const Medium& medium);
+    void prepare(const Medium& medium, const Work& work);
 
     const Scene& scene_;
     LightChooser lights_;

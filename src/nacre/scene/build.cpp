@@ -40,9 +40,12 @@ SpectrumPtr from_rgb(const Vec3f& rgb, ColorRole role) {
 
 std::filesystem::path BuildContext::file(const SceneNode& node, std::string_view name) const {
     const std::string wanted = node.get_string(name);
+    std::string where = node.location.str();
     for (const SceneValue& v : node.values)
-        if (v.name == name) return find_file(wanted, search_path, v.location.str());
-    return find_file(wanted, search_path, node.location.str());
+        if (v.name == name) where = v.location.str();
+    std::filesystem::path found = find_file(wanted, search_path, where);
+    if (files) files->push_back(found);
+    return found;
 }
 
 SpectrumPtr make_spectrum(const ColorValue& color, ColorRole role) {

@@ -26,7 +26,8 @@ struct BuildContext {
         search_path;  ///< folder of the scene file first, then <path> elements
     double mm_per_unit = 1.0;
     std::vector<std::string> warnings;
-    int film_width = 0, film_height = 0;  ///< instead of the scene's if positive
+    std::vector<std::filesystem::path>* files = nullptr;  ///< gets those that `file` finds
+    int film_width = 0, film_height = 0;                  ///< instead of the scene's if positive
 
     std::map<const SceneNode*, MaterialPtr> materials;
     std::map<const SceneNode*, MediumPtr> media;

@@ -1,7 +1,5 @@
 #include "nacre/scene/image.h"
 
-#include <unistd.h>
-
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -190,16 +188,7 @@ void write_image(const Image& image, const std::filesystem::path& file, float ex
 
 void check_image_output(const std::filesystem::path& file) {
     output_format(file);
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        throw InputError(fmt::format("{}: is a folder; name a file", file.string()));
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, error))
-        throw InputError(fmt::format("{}: the folder {} does not exist; make it first",
-                                     file.string(), folder.string()));
-    if (access(folder.c_str(), W_OK) != 0)
-        throw InputError(fmt::format("{}: the folder {} cannot be written to: {}", file.string(),
-                                     folder.string(), std::strerror(errno)));
+    check_output_file(file);
 }
 
 bool has_image_extension(const std::filesystem::path& file) {

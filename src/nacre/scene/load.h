@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "nacre/scene/scene.h"
 #include "nacre/scene/scene_node.h"
@@ -18,6 +19,8 @@ struct LoadOptions {
     /// bodies, dispersion).
     std::optional<ColorMode> mode = {};
     int width = 0, height = 0;  ///< of the film, instead of what the scene says; 0: as it says
+    /// Gets the files that the scene names: meshes, images, volumes.
+    std::vector<std::filesystem::path>* files = nullptr;
 };
 
 /// Reads the file into a tree of nodes: defaults, -D, includes, references and transforms are

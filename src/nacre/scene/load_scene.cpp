@@ -185,6 +185,7 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     BuildContext context;
     context.film_width = options.width;
     context.film_height = options.height;
+    context.files = options.files;
     const SceneNodePtr root = read_scene_xml(file, options.defines, context.search_path);
     return build_scene(root, context, options.mode);
 }

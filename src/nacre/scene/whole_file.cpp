@@ -56,6 +56,19 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
     TemporaryFile(file).write(bytes);
 }
 
+void check_output_file(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw InputError(fmt::format("{}: is a folder; name a file", file.string()));
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error))
+        throw InputError(fmt::format("{}: the folder {} does not exist; make it first",
+                                     file.string(), folder.string()));
+    if (access(folder.c_str(), W_OK) != 0)
+        throw InputError(fmt::format("{}: the folder {} cannot be written to: {}", file.string(),
+                                     folder.string(), std::strerror(errno)));
+}
+
 void make_output_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);

@@ -9,6 +9,10 @@ namespace nacre {
 /// this fails. Throws RunError "FILE: cannot be written: why".
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
+/// Throws InputError unless a file can be written there: its folder exists and may be written to,
+/// and it is no folder itself. Better known before long work than after.
+void check_output_file(const std::filesystem::path& file);
+
 /// Makes the folder and those above it unless they are there, so that long work does not find out
 /// at its end that its results have no place. Throws InputError "FOLDER: cannot be made: why" or
 /// "FOLDER: cannot be written to: why".

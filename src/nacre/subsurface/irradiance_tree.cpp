@@ -125,8 +125,11 @@ struct IrradianceTree::Builder {
     }
 
     void store(std::int32_t n, int lane, const Group& g, std::int32_t child) {
-        // Where no power enters, the centre of the area will do.
-        const Vec3d centre = g.weight > 0. ? g.centre / g.weight : g.by_area / g.area;
+        // Where no power enters, the centre of the area will do; where there is no area either, as
+        // of points that coincide with others, that of the box.
+        const Vec3d centre = g.weight > 0. ? g.centre / g.weight
+                             : g.area > 0. ? g.by_area / g.area
+                                           : (g.lower + g.upper) * 0.5;
         float* d = data(n);
         for (std::size_t k = 0; k < 3; ++k) d[k * lanes + lane] = float(centre[k]);
         float accept = always;

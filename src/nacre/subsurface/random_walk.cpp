@@ -147,8 +147,11 @@ TranslucencyPtr make_random_walk(const TechniqueInput& in) {
     const FreePath keep =
         in.settings.free_path == "diffuse" ? FreePath::diffuse : FreePath::transport;
     std::vector<RandomWalkMedium<double>> walks(media.size());
-    tbb::parallel_for(std::size_t(0), media.size(),
-                      [&](std::size_t i) { walks[i] = random_walk_medium(media[i], keep); });
+    WorkPhase phase(in.work, "inversion of the albedo", media.size());
+    tbb::parallel_for(std::size_t(0), media.size(), [&](std::size_t i) {
+        walks[i] = random_walk_medium(media[i], keep);
+        phase.advance();
+    });
     return std::make_shared<RandomWalk>(in.scene, in.shape, in.eta, bands, walks, in.exit_scale);
 }
 

@@ -10,6 +10,7 @@
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/surface_sampling.h"
 #include "nacre/render/volume_path_tracer.h"
+#include "nacre/scene/split_words.h"
 
 namespace nacre {
 namespace {
@@ -32,6 +33,7 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "",
      .may_change = "view, light, material, geometry",
      .profiles = "all",
+     .options = "exit_fresnel",
      .variants = "profile=dipole",
      .make = make_local_reflection},
     {.name = "hanrahan_krueger",
@@ -46,6 +48,7 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "",
      .may_change = "view, light, material, geometry",
      .profiles = "all",
+     .options = "exit_fresnel single_scattering",
      .variants = "profile=dipole|profile=better_dipole",
      .make = make_hanrahan_krueger},
     {.name = "surface",
@@ -59,6 +62,7 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "tables of the profile",
      .may_change = "view, light, geometry",
      .profiles = "all",
+     .options = "exit_fresnel single_scattering",
      // The six Gaussians are those of skin whatever the medium: only who asks for them gets them.
      .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
                  "profile=photon_beam_diffusion|profile=normalised_diffusion|"
@@ -74,6 +78,7 @@ constexpr TechniqueDescription catalogue[] = {
             "whose half space would return the same share of the light, by their fit",
      .precomputes = "",
      .may_change = "view, light, material, geometry",
+     .options = "exit_fresnel free_path",
      .variants = "free_path=transport|free_path=diffuse",
      .make = make_random_walk},
     {.name = "two_pass",
@@ -86,6 +91,7 @@ constexpr TechniqueDescription catalogue[] = {
      .precomputes = "surface points, irradiance, hierarchy",
      .may_change = "view",
      .profiles = "dipole, better_dipole",
+     .options = "exit_fresnel single_scattering spacing error irradiance_samples points",
      .variants = "error=1|error=0.2|error=0.05",
      .make = make_two_pass},
 };
@@ -108,7 +114,7 @@ auto at_place(const SubsurfaceSettings& settings, F&& f) {
 
 std::shared_ptr<const ProfileTables> tables_of(const TechniqueInput& in) {
     return std::make_shared<ProfileTables>(*in.scene.shapes[in.shape].interior, in.eta,
-                                           in.settings.profile, Bands(in.scene.mode));
+                                           in.settings.profile, Bands(in.scene.mode), in.work);
 }
 
 /// What a translucent shape is to light on its way to another place: a Lambert surface that returns
@@ -156,10 +162,10 @@ bool wants_simulation(const ShapeBinding& shape) {
 
 class TechniqueIntegrator final : public Integrator {
   public:
-    explicit TechniqueIntegrator(const Scene& scene) {
+    TechniqueIntegrator(const Scene& scene, const Work& work) {
         Translucencies local(scene.shapes.size());
         for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
-            if (scene.shapes[i].subsurface) local[i] = make(scene, i, make_stand_in, nullptr);
+            if (scene.shapes[i].subsurface) local[i] = make(scene, i, make_stand_in, nullptr, work);
         // Its paths are averaged over, so they may end early: an object that stands on a floor sees
         // light go to and fro in the gap for ever.
         const PathTracer light(scene, local, 2);
@@ -172,7 +178,7 @@ class TechniqueIntegrator final : public Integrator {
                         fmt::format("{}'{}' simulates the whole scene: give all translucent shapes "
                                     "this method, or none",
                                     settings->prefix(), technique.name));
-                below[i] = make(scene, i, technique.make, &light);
+                below[i] = make(scene, i, technique.make, &light, work);
             }
         tracer_ = std::make_unique<PathTracer>(scene, std::move(below));
     }
@@ -185,7 +191,8 @@ class TechniqueIntegrator final : public Integrator {
 
   private:
     TranslucencyPtr make(const Scene& scene, std::uint32_t shape,
-                         TranslucencyPtr (*maker)(const TechniqueInput&), const PathTracer* light) {
+                         TranslucencyPtr (*maker)(const TechniqueInput&), const PathTracer* light,
+                         const Work& work) {
         const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
         refuse_flat(scene, shape);
         const float eta = boundary_eta(scene.shapes[shape]);
@@ -193,7 +200,7 @@ class TechniqueIntegrator final : public Integrator {
             eta, settings.exit == "paper" ? ExitFresnel::paper : ExitFresnel::normalised);
         const float scale = float(boundary.scale());
         return at_place(settings, [&] {
-            return maker({scene, shape, settings, eta, scale, light, statistics_});
+            return maker({scene, shape, settings, eta, scale, light, statistics_, work});
         });
     }
 
@@ -230,9 +237,28 @@ std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique) 
     return result;
 }
 
-void choose_technique(Scene& scene, const TechniqueChoice& choice) {
+void check_choice(const TechniqueChoice& choice) {
     const TechniqueDescription& technique = find_technique(choice.technique);
-    if (!choice.profile.empty()) find_profile(choice.profile);
+    if (!choice.profile.empty()) {
+        find_profile(choice.profile);
+        if (technique.profiles.empty())
+            throw InputError(fmt::format("technique '{}' has no profile: leave out '{}'",
+                                         technique.name, choice.profile));
+    }
+    SubsurfaceSettings checked;
+    const std::vector<std::string_view> own = split_words(technique.options);
+    for (const auto& [name, value] : choice.options) {
+        set_option(checked, name, value);
+        if (std::ranges::find(own, name) == own.end())
+            throw InputError(fmt::format(
+                "technique '{}' has no option '{}'; {}", technique.name, name,
+                own.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(own, ", "))));
+    }
+}
+
+void choose_technique(Scene& scene, const TechniqueChoice& choice) {
+    check_choice(choice);
+    const TechniqueDescription& technique = find_technique(choice.technique);
     if (!technique.make) {
         scene.integrator.type = "volpath";
         return;
@@ -244,14 +270,14 @@ void choose_technique(Scene& scene, const TechniqueChoice& choice) {
     });
 }
 
-std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene) {
+std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene, const Work& work) {
     const auto translucent = [](const ShapeBinding& s) { return s.subsurface != nullptr; };
     if (scene.integrator.type != "path" || std::ranges::none_of(scene.shapes, translucent))
-        return make_integrator(scene);
+        return make_integrator(scene, work);
     const auto count = std::ranges::count_if(scene.shapes, wants_simulation);
     if (count > 0 && count == std::ranges::count_if(scene.shapes, translucent))
-        return std::make_unique<VolumePathTracer>(scene);
-    return std::make_unique<TechniqueIntegrator>(scene);
+        return std::make_unique<VolumePathTracer>(scene, work);
+    return std::make_unique<TechniqueIntegrator>(scene, work);
 }
 
 std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const TechniqueInput& in,

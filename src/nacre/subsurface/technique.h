@@ -25,6 +25,7 @@ struct TechniqueInput {
     /// the shape. Null while those are being made.
     const PathTracer* light;
     Statistics& statistics;  ///< what precomputation took
+    const Work& work;        ///< whether to stop, and whom to tell how far precomputation is
 };
 
 struct TechniqueDescription {
@@ -37,6 +38,7 @@ struct TechniqueDescription {
     std::string_view precomputes;  ///< before the first picture; empty if nothing
     std::string_view may_change;  ///< without computing that again: view, light, material, geometry
     std::string_view profiles = "";  ///< that it takes; empty if it needs none
+    std::string_view options = "";   ///< of subsurface_options that it heeds, separated by blanks
     /// The settings at which comparisons run it, separated by '|', each "name=value name=value" of
     /// options, where "profile" is the profile; all else is as by default. Empty: the defaults
     /// alone.
@@ -57,14 +59,16 @@ struct TechniqueChoice {
 /// The description's variants, one at least.
 std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique);
 /// Has the scene rendered by a technique: complete simulation by volpath, any other by path with
-/// that technique in all translucent shapes. Throws InputError for unknown names and values, and if
-/// nothing in the scene is translucent.
+/// that technique in all translucent shapes. Throws InputError for unknown names and values, for a
+/// profile or options that the technique does not have, and if nothing in the scene is translucent.
 void choose_technique(Scene& scene, const TechniqueChoice& choice);
+/// Throws InputError, as above, for what is wrong with a choice whatever the scene.
+void check_choice(const TechniqueChoice& choice);
 
 /// The integrator that the scene names, with the techniques that its shapes name if it is `path`.
 /// Precomputation happens here. `scene` outlives it. Throws InputError, with the place in the file
-/// where there is one, for names that are not known.
-std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene);
+/// where there is one, for names that are not known, and Stopped if `work` says so.
+std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene, const Work& work = {});
 
 class SingleScatteringTerm;
 /// The term of single scattering, if settings and profile want it; else null.

@@ -7,6 +7,7 @@
 
 #include "nacre/bssrdf/better_dipole.h"
 #include "nacre/bssrdf/dipole.h"
+#include "nacre/geometry/area_sampler.h"
 #include "nacre/geometry/surface_points.h"
 #include "nacre/geometry/tessellate.h"
 #include "nacre/math/error.h"
@@ -20,6 +21,10 @@ namespace nacre {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+// Between two looks at whether to stop.
+constexpr int paths_at_a_time = 64;
+// Errors of single shares average out in the sum: few candidates a point will do.
+constexpr float elimination_candidates = 4.f;
 
 class Stopwatch {
   public:
@@ -57,7 +62,13 @@ PointMethod point_method(std::string_view name) {
                                : PointMethod::elimination;
 }
 
-ShapePoints spread_points(const TechniqueInput& in, double spacing) {
+/// Rounded up in the third digit: what is advised should do.
+double advised(double x) {
+    const double digit = std::pow(10., std::floor(std::log10(x)) - 2.);
+    return std::ceil(x * (1. + 1e-9) / digit) * digit;
+}
+
+ShapePoints spread_points(const TechniqueInput& in, double free_path) {
     const RayScene& rays = in.scene.rays;
     const Mesh* mesh = rays.mesh(in.shape);
     std::optional<Mesh> made;
@@ -65,12 +76,15 @@ ShapePoints spread_points(const TechniqueInput& in, double spacing) {
         made = tessellate(*rays.primitive(in.shape));
         mesh = &*made;
     }
+    in.work.begin("surface points");
     // Errors of single shares average out in the sum: the cheap settings do.
     SurfacePointOptions options;
     options.samples_per_point = 16;
-    options.elimination.candidates = 4;
-    const SurfacePointSet set = points_for_spacing(*mesh, spacing, point_method(in.settings.points),
-                                                   in.scene.sampler.seed, options);
+    options.elimination.candidates = elimination_candidates;
+    check_spacing(in.settings, AreaSampler(*mesh).area(), free_path);
+    const SurfacePointSet set =
+        points_for_spacing(*mesh, in.settings.spacing * free_path, point_method(in.settings.points),
+                           in.scene.sampler.seed, options, in.work);
     ShapePoints result;
     result.area = set.area;
     for (std::size_t i = 0; i < set.p.size(); ++i) {
@@ -91,6 +105,8 @@ std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
               samples = std::max(1, in.settings.irradiance_samples / groups);
     std::vector<float> power(points.p.size() * std::size_t(bands.count()));
     const Sampler prototype(Sampler::Kind::sobol, in.scene.sampler.seed + 1, samples);
+    WorkPhase phase(in.work, "irradiance",
+                    points.p.size() * std::size_t(groups) * std::size_t(samples));
     tbb::parallel_for(std::size_t(0), points.p.size(), [&](std::size_t i) {
         Sampler sampler = prototype;
         RayCounts counts;
@@ -98,10 +114,13 @@ std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
             const Wavelengths w = bands.group(g);
             Spectral sum(0.f);
             for (int s = 0; s < samples; ++s) {
+                // Thousands of paths a point may be asked for.
+                if (s > 0 && s % paths_at_a_time == 0) phase.advance(paths_at_a_time);
                 sampler.start(i * std::size_t(groups) + std::size_t(g), std::uint32_t(s));
                 sum +=
                     in.light->reflected(points.at[i], entry, {0.f, 0.f, 1.f}, sampler, w, counts);
             }
+            phase.advance(std::uint64_t((samples - 1) % paths_at_a_time + 1));
             // `reflected` is irradiance over pi.
             sum *= Spectral(float(pi) / float(samples) * points.area[i]) / daylight(w);
             for (int b = 4 * g; b < std::min(4 * g + 4, bands.count()); ++b)
@@ -121,6 +140,35 @@ Translucency::Emergence TwoPass::emerge(const SurfacePoint& exit, const Vec3f& w
     result.radiance = bands_.at(exitance, w) * daylight(w) * Spectral(exit_scale_ * float(1. / pi));
     if (single_) result.radiance += single_->radiance(exit, wo, sampler, w, counts);
     return result;
+}
+
+void check_spacing(const SubsurfaceSettings& settings, double area, double free_path) {
+    const auto least = [&](double limit) {
+        return std::sqrt(2. / std::numbers::sqrt3 * area / limit) / free_path;
+    };
+    const double all = double(kMaxSurfacePoints), eliminated = std::floor(all / elimination_candidates);
+    const bool elimination = settings.points == "elimination";
+    const double limit = elimination ? eliminated : all;
+    if (settings.spacing >= least(limit)) return;
+    const auto option = std::ranges::find(subsurface_options(), "spacing", &SubsurfaceOption::name);
+    const double count = limit * std::pow(least(limit) / settings.spacing, 2.);
+    const double spacing = advised(least(limit));
+    // The most points take minutes and more than ten gigabytes.
+    const double easy = advised(std::min(std::sqrt(10.) * spacing, option->high));
+    std::string advice = fmt::format(
+        "set spacing to at least {:g}, or to {:g}, which takes a tenth of the time and memory",
+        spacing, easy);
+    if (spacing > option->high)
+        advice = fmt::format(
+            "spacing would have to be {:g}, and {:g} is the most: the object is too large for its "
+            "medium; make it smaller by a factor of {:.3g}, or choose another technique",
+            spacing, option->high, advised(spacing / option->high));
+    else if (elimination && settings.spacing >= least(all))
+        advice += "; or set points to repulsion";
+    throw InputError(fmt::format(
+        "spacing = {:g} transport mean free paths takes {:.3g} surface points; with points = {} "
+        "the limit is {:.0f}: {}",
+        settings.spacing, count, settings.points, limit, advice));
 }
 
 DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium) {
@@ -157,10 +205,11 @@ TranslucencyPtr make_two_pass(const TechniqueInput& in) {
     }
     const auto profile = make_profile(in.settings.profile, {});
     Stopwatch watch;
-    const ShapePoints points = spread_points(in, in.settings.spacing / densest);
+    const ShapePoints points = spread_points(in, 1. / densest);
     const double seconds_points = watch.lap();
     const std::vector<float> power = power_at(in, points, bands);
     const double seconds_irradiance = watch.lap();
+    in.work.begin("hierarchy of the points");
     IrradianceTree tree(points.p, points.area, power, bands.count(), float(in.settings.error));
     in.statistics.push_back({"points", double(points.p.size()), ""});
     in.statistics.push_back({"points_seconds", seconds_points, "s"});

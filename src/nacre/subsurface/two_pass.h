@@ -4,6 +4,7 @@
 #include "nacre/bssrdf/medium.h"
 #include "nacre/render/single_scattering.h"
 #include "nacre/render/translucency.h"
+#include "nacre/scene/subsurface.h"
 #include "nacre/spectrum/bands.h"
 #include "nacre/subsurface/irradiance_tree.h"
 
@@ -31,6 +32,11 @@ class TwoPass final : public Translucency {
     float exit_scale_;
     std::shared_ptr<const SingleScatteringTerm> single_;
 };
+
+/// Throws InputError if spacing and points of the settings make more points of a surface of that area
+/// than there may be; what it advises is in the unit and within the range of the option.
+/// `free_path` is the transport mean free path of the densest band.
+void check_spacing(const SubsurfaceSettings& settings, double area, double free_path);
 
 /// The kernel of "dipole" or "better_dipole"; throws InputError for other profiles.
 DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium);
