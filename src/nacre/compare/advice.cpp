@@ -81,9 +81,9 @@ std::vector<std::string> advise(std::span<const ErrorLaw> laws, std::span<const 
             if (!next.same_as(w)) break;
             at_last = std::move(next), ++last;
         }
-        const std::string range = last == i ? percent(errors[i])
-                                            : fmt::format("{} to {}", percent(errors[i]),
-                                                          percent(errors[last]));
+        const std::string range =
+            last == i ? percent(errors[i])
+                      : fmt::format("{} to {}", percent(errors[i]), percent(errors[last]));
         if (!w.law) {
             std::string s = fmt::format("An error of {} is certainly reached by none", range);
             if (!w.unsure.empty())
@@ -91,20 +91,20 @@ std::vector<std::string> advise(std::span<const ErrorLaw> laws, std::span<const 
                                  w.unsure.size() == 1 ? "does" : "do");
             sentences.push_back(s + ".");
         } else {
-            const bool only = w.ties.empty() &&
-                              std::ranges::count_if(laws, [&](const ErrorLaw& law) {
-                                  return time_to_reach(law, errors[i]).reach == Reach::certain;
-                              }) == 1;
-            std::string s = fmt::format(
-                "For an error of {} {} {}: {}", range,
-                laws.size() == 1 ? "the only one compared is"
-                : only           ? "only"
-                                 : "the fastest is",
-                laws.size() == 1 || !only ? w.law->name : w.law->name + " is certain",
-                time_in_words(w.seconds));
-            if (last > i) s += fmt::format(" to {}", time_in_words(at_last.seconds));
-            if (!w.ties.empty())
-                s += fmt::format("; not told apart by time: {}", list_of(w.ties));
+            const bool only =
+                w.ties.empty() && std::ranges::count_if(laws, [&](const ErrorLaw& law) {
+                                      return time_to_reach(law, errors[i]).reach == Reach::certain;
+                                  }) == 1;
+            std::string s =
+                fmt::format("For an error of {} {} {}: {}", range,
+                            laws.size() == 1 ? "the only one compared is"
+                            : only           ? "only"
+                                             : "the fastest is",
+                            laws.size() == 1 || !only ? w.law->name : w.law->name + " is certain",
+                            time_in_words(w.seconds));
+            if (time_in_words(at_last.seconds) != time_in_words(w.seconds))
+                s += fmt::format(" to {}", time_in_words(at_last.seconds));
+            if (!w.ties.empty()) s += fmt::format("; not told apart by time: {}", list_of(w.ties));
             if (only && !w.unsure.empty() && laws.size() > 1)
                 s += fmt::format("; left open by noise: {}", list_of(w.unsure));
             sentences.push_back(s + ".");
@@ -179,7 +179,7 @@ std::string name_with_setting(const std::string& name, const std::string& settin
 
 std::string time_in_words(double s) {
     if (s >= 5400) return fmt::format("{:.3g} h", s / 3600);
-    if (s >= 90) return fmt::format("{:.3g} min", s / 60);
+    if (s >= 90) return fmt::format("{:.2g} min", s / 60);
     return s < 0.001 ? "under 1 ms" : fmt::format("{:.2g} s", s);
 }
 

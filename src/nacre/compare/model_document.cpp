@@ -222,9 +222,9 @@ std::vector<std::string> advise(const ModelComparison& c) {
     }
     if (failed) sentences.push_back(fmt::format("{} could not be fitted.", failed));
     if (missing)
-        sentences.push_back(fmt::format(
-            "{} of {} were not fitted: the finished comparison may say otherwise.", missing,
-            c.models.size()));
+        sentences.push_back(
+            fmt::format("{} of {} were not fitted: the finished comparison may say otherwise.",
+                        missing, c.models.size()));
     return sentences;
 }
 

@@ -188,12 +188,9 @@ ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin, 
 
 /// What the page computes the time to any error from, in percent and seconds.
 ordered_json describe(const ErrorLaw& law) {
-    return {{"before", law.precompute},
-            {"frame", law.frame},
-            {"least_frame", law.least_frame},
-            {"noise", 100 * law.noise},
-            {"floor", 100 * law.floor},
-            {"sigma", 100 * law.sigma}};
+    return {{"before", law.precompute},       {"frame", law.frame},
+            {"least_frame", law.least_frame}, {"noise", 100 * law.noise},
+            {"floor", 100 * law.floor},       {"sigma", 100 * law.sigma}};
 }
 
 ordered_json verdict(const Experiment& e, const std::string& reference) {

@@ -214,15 +214,15 @@ std::vector<std::string> advise(const std::vector<SuiteResult>& results,
                 ++partial;
                 continue;
             }
-            all.push_back({name_with_setting(name, name.size() < first.id.size()
-                                                       ? first.id.substr(name.size() + 1)
-                                                       : ""),
-                           median(errors),
-                           median(values(cells, &SuiteCell::frame)) +
-                               median(values(cells, &SuiteCell::precompute))});
+            all.push_back(
+                {name_with_setting(
+                     name, name.size() < first.id.size() ? first.id.substr(name.size() + 1) : ""),
+                 median(errors),
+                 median(values(cells, &SuiteCell::frame)) +
+                     median(values(cells, &SuiteCell::precompute))});
         }
-    const std::string over = fmt::format("Over {} {}", results.size(),
-                                         results.size() == 1 ? "case" : "cases");
+    const std::string over =
+        fmt::format("Over {} {}", results.size(), results.size() == 1 ? "case" : "cases");
     std::vector<std::string> sentences;
     const auto words = [](const Summary& s) {
         return fmt::format("{}: {}, first picture after {}", s.name,
@@ -234,15 +234,15 @@ std::vector<std::string> advise(const std::vector<SuiteResult>& results,
         sentences.push_back(over + " no technique beside the reference has numbers in every case.");
     } else {
         std::ranges::sort(all, {}, [](const Summary& s) { return std::pair(s.error, s.seconds); });
-        sentences.push_back(fmt::format("{} the least median systematic error has {}.", over,
-                                        words(all.front())));
+        sentences.push_back(
+            fmt::format("{} the least median systematic error has {}.", over, words(all.front())));
         for (const double error : {0.1, 0.05}) {
             const Summary* fastest = nullptr;
             for (const Summary& s : all)
                 if (s.error < error && (!fastest || s.seconds < fastest->seconds)) fastest = &s;
             if (fastest && fastest != &all.front())
-                sentences.push_back(fmt::format("Below {:g} % the fastest is {}.", 100 * error,
-                                                words(*fastest)));
+                sentences.push_back(
+                    fmt::format("Below {:g} % the fastest is {}.", 100 * error, words(*fastest)));
             else if (!fastest)
                 sentences.push_back(fmt::format("Below {:g} % stays none.", 100 * error));
         }
