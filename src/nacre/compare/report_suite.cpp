@@ -227,7 +227,7 @@ std::vector<std::string> advise(const std::vector<SuiteResult>& results,
     const auto words = [](const Summary& s) {
         return fmt::format("{}: {}, first picture after {}", s.name,
                            s.error > 0 ? fmt::format("{:.2g} %", 100 * s.error)
-                                       : "nothing that noise could not be",
+                                       : "no error told from noise",
                            time_in_words(s.seconds));
     };
     if (all.empty()) {
