@@ -90,7 +90,10 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
         write_image(image, o.output / "pictures" / (file + ".exr"));
     }
     write_report(document, o.output);
-    if (!o.quiet) print_table(c);
+    if (!o.quiet) {
+        print_table(c);
+        fmt::print("\n{}\n", fmt::join(advise(c), "\n"));
+    }
     fmt::print("{}\n",
                std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     if (!c.complete) {

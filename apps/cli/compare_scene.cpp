@@ -117,7 +117,12 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
                  {title_of(o, e), o.input.scene, arguments_of(o.input), invocation.command_line,
                   options.build});
     write_report(document, o.output);
-    if (!o.quiet) print_table(e);
+    if (!o.quiet) {
+        print_table(e);
+        fmt::print("\n");
+        for (const auto& sentence : document["verdict"]["sentences"])
+            fmt::print("{}\n", sentence.get<std::string>());
+    }
     fmt::print("{}\n",
                std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     if (!e.complete) {

@@ -75,6 +75,9 @@ int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation
                                     {"Translucency: every technique on every kind of object", "",
                                      "", invocation.command_line, options.build}),
                      o.output);
+        if (!o.quiet)
+            fmt::print("{}\n",
+                       fmt::join(advise(results, options.reference.technique.technique), "\n"));
         fmt::print("{}\n",
                    std::filesystem::absolute(o.output / "index.html").lexically_normal().string());
     }

@@ -22,8 +22,12 @@ struct Table {
     PlotKind kind = PlotKind::curves;
     std::string y_label;
     /// Columns that hold standard errors, with the column they belong to (both from 0): drawn as
-    /// bars of one standard error, not as curves of their own.
+    /// bands of two standard errors about its line, not as curves of their own.
     std::map<std::size_t, std::size_t> errors = {};
+    std::string x_label = {};             ///< else the name of the first column
+    std::vector<std::string> names = {};  ///< of the columns in pictures, else as in the CSV
+    /// Of rows (areas of rings), by which pictures take noisy neighbours together; empty: all 1.
+    std::vector<double> weights = {};
 };
 
 /// Throws InputError unless a table can be written there: before it is computed. Empty means print.

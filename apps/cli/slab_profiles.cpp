@@ -57,7 +57,20 @@ class Columns {
         add(name, values, errors);
     }
 
-    Table table() && { return std::move(table_); }
+    /// With the columns' names in words for the picture.
+    Table table() && {
+        for (const std::string& column : table_.columns) {
+            std::string name = column;
+            std::ranges::replace(name, '_', ' ');
+            for (const auto& [from, to] :
+                 {std::pair("ad ", "adding-doubling, "), std::pair("mc ", "Monte Carlo, ")})
+                if (name.starts_with(from)) name.replace(0, 3, to);
+            table_.names.push_back(name == "ad"   ? "adding-doubling"
+                                   : name == "mc" ? "Monte Carlo"
+                                                  : name);
+        }
+        return std::move(table_);
+    }
 
   private:
     Table table_;
@@ -89,8 +102,15 @@ Table radial_table(const SlabTask& task, double rmax, int bins) {
     wanted.radius = bins;
     wanted.radius_width = (rmax > 0. ? rmax : ten_free_paths(task.stack)) / bins;
     const SlabMonteCarloResult r = simulate(task, wanted);
-    Columns columns({"slab, over the radius", {"r_mm"}, {}, PlotKind::semilog, "power / mm^-2"},
-                    middles(bins, wanted.radius_width));
+    const std::vector<double> radii = middles(bins, wanted.radius_width);
+    Table t{"Slab: light that leaves, by slab Monte Carlo",
+            {"r_mm"},
+            {},
+            PlotKind::semilog,
+            "share of the power / mm⁻²"};
+    t.x_label = "distance from entry / mm";
+    t.weights = radii;  // the areas of equal rings grow like them
+    Columns columns(std::move(t), radii);
     columns.add("reflected", r.reflected_radius);
     columns.add("transmitted", r.transmitted_radius);
     return std::move(columns).table();
@@ -104,8 +124,14 @@ Table angular_table(const SlabTask& task, const std::vector<const SlabMethod*>& 
     if (!has("ad") && !has("mc"))
         throw InputError("--angular is told by the methods ad and mc; --method has neither");
     const std::vector<double> angles = middles(bins, 90. / bins);
-    Columns columns({"slab, over the angle", {"theta_deg"}, {}, PlotKind::semilog, "power / sr^-1"},
-                    angles);
+    Table t{"Slab: light that leaves, over the angle of exit",
+            {"theta_deg"},
+            {},
+            PlotKind::semilog,
+            "share of the power / sr⁻¹"};
+    t.x_label = "angle of exit to the normal / degrees";
+    for (const double a : angles) t.weights.push_back(std::sin(a * std::numbers::pi / 180.));
+    Columns columns(std::move(t), angles);
     if (has("ad")) {
         std::vector<double> cosines;
         for (const double a : angles) cosines.push_back(std::cos(a * std::numbers::pi / 180.));
@@ -131,8 +157,16 @@ Table angular_table(const SlabTask& task, const std::vector<const SlabMethod*>& 
 Table lobe_table(const LayerStack& stack, const std::vector<double>& incidences) {
     constexpr double degree = std::numbers::pi / 180.;
     const HanrahanKruegerStack layers(stack);
-    Table t{"light scattered once", {"theta_o_deg"}, {}, PlotKind::polar, "f cos(theta_i) / sr^-1"};
-    for (const double a : incidences) t.columns.push_back(fmt::format("theta_i={:g}", a));
+    Table t{"Slab: light scattered once",
+            {"theta_o_deg"},
+            {},
+            PlotKind::polar,
+            "BRDF times cosine of incidence / sr⁻¹, as distance from the origin"};
+    t.names = {""};
+    for (const double a : incidences) {
+        t.columns.push_back(fmt::format("theta_i={:g}", a));
+        t.names.push_back(fmt::format("incidence {:g}°", a));
+    }
     for (double out = -179.75; out < 180.; out += 0.5) {
         std::vector<double> row{out};
         for (const double a : incidences) {
@@ -152,7 +186,9 @@ Table spectrum_table(const SkinParameters& skin, const SlabTask& task,
     // Multiples, not sums, lest the last one be missed by rounding.
     for (int i = 0; from + i * step <= to * (1. + 1e-12); ++i)
         wavelengths.push_back(from + i * step);
-    Columns columns({"reflectance of skin", {"nm"}, {}, PlotKind::curves, "R"}, wavelengths);
+    Table t{"Reflectance of skin", {"nm"}, {}, PlotKind::curves, "reflectance"};
+    t.x_label = "wavelength / nm";
+    Columns columns(std::move(t), wavelengths);
     for (const SlabMethod* m : methods) {
         std::vector<double> values, errors;
         for (const double nm : wavelengths) {

@@ -52,14 +52,19 @@ std::vector<double> incidences(const Options& o) {
 }
 
 std::string title_of(const Options& o) {
-    std::string title = o.model;
-    for (const std::string& s : o.set) title += " " + s;
-    return title;
+    std::string title;
+    for (std::string s : o.set) {
+        if (const std::size_t at = s.find('='); at != s.npos) s.replace(at, 1, " = ");
+        title += (title.empty() ? "" : ", ") + s;
+    }
+    return fmt::format("{}: {}; {:g} nm", o.model, title.empty() ? "default parameters" : title,
+                       o.nm);
 }
 
 /// Albedo over the angle of incidence.
 Table albedo_table(const AnyModel& model, const Options& o) {
     Table t{title_of(o), {"theta_i_deg", "albedo"}, {}, PlotKind::curves, "albedo"};
+    t.x_label = "angle of incidence / degrees";
     for (int i = 0; i <= 89; ++i) {
         const Vec3d wi = in_plane(i * degree);
         t.rows.push_back(
@@ -70,9 +75,20 @@ Table albedo_table(const AnyModel& model, const Options& o) {
 
 /// Values in the plane of incidence, light at negative angles, viewer from -90 to 90 degrees.
 Table cut_table(const AnyModel& model, const Options& o, PlotKind kind) {
-    Table t{title_of(o), {"theta_o_deg"}, {}, kind, "f / sr^-1"};
+    Table t{title_of(o),
+            {"theta_o_deg"},
+            {},
+            kind,
+            kind == PlotKind::polar
+                ? "BRDF / sr⁻¹, as distance from the origin; light from the left"
+                : "BRDF / sr⁻¹"};
+    t.x_label = "angle of the viewer in the plane of incidence / degrees";
+    t.names = {""};
     const std::vector<double> angles = incidences(o);
-    for (double a : angles) t.columns.push_back(fmt::format("theta_i={:g}", a));
+    for (double a : angles) {
+        t.columns.push_back(fmt::format("theta_i={:g}", a));
+        t.names.push_back(fmt::format("incidence {:g}°", a));
+    }
     for (double out = -89.5; out <= 89.5; out += 0.5) {
         std::vector<double> row{out};
         for (double a : angles)
@@ -85,7 +101,9 @@ Table cut_table(const AnyModel& model, const Options& o, PlotKind kind) {
 /// Burley's slice: the value over the angle of the half vector to the normal and that of the light
 /// to the half vector.
 Table slice_table(const AnyModel& model, const Options& o) {
-    Table t{title_of(o), {"theta_h_deg", "theta_d_deg", "f"}, {}, PlotKind::image, "f / sr^-1"};
+    Table t{title_of(o), {"theta_h_deg", "theta_d_deg", "f"}, {}, PlotKind::image, "BRDF / sr⁻¹"};
+    t.x_label = "angle of the half vector to the normal / degrees";
+    t.names = {"", "angle of the light to the half vector / degrees", ""};
     for (int d = 0; d < 90; ++d)
         for (int h = 0; h < 90; ++h) {
             const DirectionPair w = burley_slice((h + 0.5) * degree, (d + 0.5) * degree);

@@ -148,15 +148,26 @@ std::vector<std::unique_ptr<RadialProfile>> chosen_profiles(const ProfileMedium&
 
 Table table_of(const std::vector<Column>& columns, const std::vector<double>& radii,
                const std::string& title, bool cumulative) {
-    Table t{.title = title,
+    std::string words = title;
+    if (const std::size_t at = words.find("mm^-1"); at != words.npos) words.replace(at, 5, "mm⁻¹");
+    Table t{.title = words,
             .columns = {"r_mm"},
             .rows = {},
             .kind = PlotKind::logarithmic,
-            .y_label = cumulative ? "light that leaves within r" : "R / mm^-2"};
+            .y_label = cumulative ? "share of the light that leaves within the distance"
+                                  : "diffuse reflectance R / mm⁻²",
+            .x_label = "distance from entry / mm",
+            .names = {""}};
+    // In even steps of the logarithm the areas of rings are as r^2; what lies within needs none.
+    if (!cumulative)
+        for (const double r : radii) t.weights.push_back(r * r);
     t.rows.resize(radii.size());
     for (std::size_t i = 0; i < radii.size(); ++i) t.rows[i] = {radii[i]};
     const auto put = [&](const std::string& name, const std::vector<double>& values) {
         t.columns.push_back(name);
+        std::string words = name == "monte_carlo" ? "slab Monte Carlo" : name;
+        std::ranges::replace(words, '_', ' ');
+        t.names.push_back(words);
         for (std::size_t i = 0; i < radii.size(); ++i) t.rows[i].push_back(values[i]);
     };
     for (const Column& c : columns) {

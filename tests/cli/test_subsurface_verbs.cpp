@@ -390,4 +390,23 @@ TEST_F(SubsurfaceVerbs, SlabRunsTheFilesOfMcml) {
 }
 
 }  // namespace
+/// Rings that no photon met, and 0 has no place on a logarithmic axis, do not break the line.
+TEST_F(SubsurfaceVerbs, ASimulationIsOneLineInABand) {
+    if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot: no pictures";
+    ASSERT_EQ(nacre("profile dipole --material marble --mc 2000 -o p.svg").code, 0);
+    const std::string svg = read(folder_ / "p.svg");
+    for (const char* words : {"distance from entry / mm", "slab Monte Carlo, ±2 standard errors"})
+        EXPECT_NE(svg.find(words), std::string::npos) << words;
+    EXPECT_NE(svg.find("fill-opacity"), std::string::npos) << "no band";
+    // The line is the longest path in the colour of a simulation.
+    std::string longest;
+    for (std::size_t at = 0; (at = svg.find("<path", at)) != svg.npos; ++at) {
+        const std::string path = svg.substr(at, svg.find("/>", at) - at);
+        if (path.find("28,  29,  31") != path.npos && path.size() > longest.size()) longest = path;
+    }
+    EXPECT_EQ(std::count(longest.begin(), longest.end(), 'M'), 2)
+        << longest;  // its sample in the legend
+    EXPECT_GT(std::count(longest.begin(), longest.end(), 'L'), 10);
+}
+
 }  // namespace nacre

@@ -185,9 +185,70 @@ Json notes(const ModelComparison& c) {
 
 }  // namespace
 
+std::vector<std::string> advise(const ModelComparison& c) {
+    const auto error = [&](const ComparedModel& m) {
+        return c.metric == FitMetric::log ? m.fit->errors.log_relative
+                                          : m.fit->errors.cosine_relative;
+    };
+    const char* what = c.metric == FitMetric::log ? "log error" : "error";
+    std::vector<const ComparedModel*> fitted;
+    std::size_t failed = 0, missing = 0;
+    for (const ComparedModel& m : c.models) {
+        failed += m.status == ComparedModel::Status::failed;
+        missing += m.status == ComparedModel::Status::missing;
+        if (m.status == ComparedModel::Status::ok) fitted.push_back(&m);
+    }
+    std::vector<std::string> sentences;
+    if (fitted.empty()) {
+        sentences.push_back("No model was fitted, so none is recommended.");
+    } else {
+        std::ranges::stable_sort(fitted, {}, [&](const ComparedModel* m) { return error(*m); });
+        const ComparedModel& best = *fitted.front();
+        std::string s = fmt::format("Nearest to {} is {}: {} {:.3g} %", c.target, best.id, what,
+                                    100 * error(best));
+        std::vector<std::string> ties;
+        for (const ComparedModel* m : fitted)
+            if (m != &best && (error(*m) <= 1.01 * error(best) || error(*m) < 1e-6))
+                ties.push_back(m->id);
+        if (!ties.empty()) s += fmt::format("; as near, within 1 %: {}", fmt::join(ties, ", "));
+        if (fitted.size() > 1 + ties.size()) {
+            const ComparedModel& next = *fitted[1 + ties.size()];
+            s += fmt::format("; next is {} ({:.3g} %)", next.id, 100 * error(next));
+        }
+        sentences.push_back(s + ".");
+        if (best.energy != Energy::conserves)
+            sentences.push_back(
+                fmt::format("{} does not conserve energy for all parameters.", best.id));
+    }
+    if (failed) sentences.push_back(fmt::format("{} could not be fitted.", failed));
+    if (missing)
+        sentences.push_back(
+            fmt::format("{} of {} were not fitted: the finished comparison may say otherwise.",
+                        missing, c.models.size()));
+    return sentences;
+}
+
 nlohmann::ordered_json describe(const ModelComparison& c) {
     Json rows = Json::array(), warnings = Json::array();
-    for (const ComparedModel& m : c.models) rows.push_back(row(m));
+    // Spheres and slices of the same bits: the options of the two do not tell them apart here.
+    const auto same = [&](const ComparedModel& a, const ComparedModel& b) {
+        for (const char* kind : {"", "slice "}) {
+            const auto p = c.pictures.find(kind + a.id), q = c.pictures.find(kind + b.id);
+            if (p == c.pictures.end() || q == c.pictures.end() || p->second.data != q->second.data)
+                return false;
+        }
+        return true;
+    };
+    for (const ComparedModel& m : c.models) {
+        rows.push_back(row(m));
+        for (const ComparedModel& earlier : c.models) {
+            if (&earlier == &m) break;
+            if (same(earlier, m)) {
+                rows.back()["same_as"] = earlier.id;
+                break;
+            }
+        }
+    }
     if (!c.complete) warnings.push_back("The comparison was stopped; some models are missing.");
     Json charts = Json::array({albedo_chart(c)});
     for (std::size_t k = 0; k < BrdfPortrait::incidences.size(); ++k)
@@ -208,6 +269,7 @@ nlohmann::ordered_json describe(const ModelComparison& c) {
             {"facts", facts},
             {"command", ""},
             {"warnings", warnings},
+            {"verdict", {{"sentences", advise(c)}}},
             {"notes", notes(c)},
             {"columns", columns()},
             {"rows", rows},

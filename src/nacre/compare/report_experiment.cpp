@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "nacre/compare/advice.h"
 #include "nacre/compare/crops.h"
 #include "nacre/compare/machine.h"
 #include "nacre/compare/report.h"
@@ -54,6 +55,9 @@ ordered_json columns() {
             number_column("total", "first picture", "s", 2, "low", "precomputation and one frame")),
         hidden(
             number_column("cpu", "CPU", "s", 2, "low", "CPU time of precomputation and one frame")),
+        number_column("reach", "time to the error chosen", "s", 2, "low",
+                      "precomputation and as long a frame as the chosen error of a frame takes; a "
+                      "dash: never, or noise leaves it open"),
         number_column("memory", "memory", "MB", 0, "low",
                       "the most that was held beyond the scene itself"),
         text_column("changes", "may change", "what may change before anything is computed anew")};
@@ -182,6 +186,23 @@ ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin, 
     return r;
 }
 
+/// What the page computes the time to any error from, in percent and seconds.
+ordered_json describe(const ErrorLaw& law) {
+    return {{"before", law.precompute},       {"frame", law.frame},
+            {"least_frame", law.least_frame}, {"noise", 100 * law.noise},
+            {"floor", 100 * law.floor},       {"sigma", 100 * law.sigma}};
+}
+
+ordered_json verdict(const Experiment& e, const std::string& reference) {
+    return {{"sentences", advise(e, reference)},
+            {"error", 100 * first_error},
+            {"text",
+             "Error of a frame, pixel by pixel. Times are extrapolated: noise falls as one over "
+             "the square root of the time, and the systematic error stays. A technique counts as "
+             "within an error only if its systematic error and two standard errors are. Techniques "
+             "that differ by less than 10 % or the spread of the repeats are not told apart."}};
+}
+
 ordered_json facts(const Experiment& e, const Scene& scene, const ExperimentOptions& o,
                    const ReportOrigin& origin) {
     ordered_json list = ordered_json::array();
@@ -253,6 +274,7 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
         d["warnings"].push_back(
             "The comparison was interrupted: rows without numbers were not run. The same command "
             "goes on where it stopped.");
+    d["verdict"] = verdict(e, o.reference.technique.technique);
     d["notes"] = notes();
     for (const ExperimentRow& row : e.rows)
         if (row.peer && !row.measurement.notes.empty())
@@ -269,10 +291,19 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
     const int side = side_on_page(e.reference.picture, std::size_t(done) + 1);
     std::vector<const Image*> pictures;
     d["rows"] = ordered_json::array();
+    const auto same = identical_rows(e.rows);
     d["pictures"] = {{"reference", rgbe_picture(shrunk(e.reference.picture, side))}};
     d["maps"] = ordered_json::object();
-    for (const ExperimentRow& row : e.rows) {
-        d["rows"].push_back(describe_row(row, origin, o.seed, several));
+    for (std::size_t i = 0; i < e.rows.size(); ++i) {
+        const ExperimentRow& row = e.rows[i];
+        ordered_json described = describe_row(row, origin, o.seed, several);
+        if (const auto law = error_law(row, o.reference.technique.technique)) {
+            described["law"] = describe(*law);
+            const TimeToReach t = time_to_reach(*law, first_error);
+            if (t.reach == Reach::certain) described["values"]["reach"] = t.seconds;
+        }
+        if (same[i]) described["same_as"] = e.rows[*same[i]].measurement.id;
+        d["rows"].push_back(described);
         if (row.measurement.invalid_samples)
             d["warnings"].push_back(fmt::format("{}: {} invalid samples", row.measurement.id,
                                                 row.measurement.invalid_samples));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "nacre/compare/advice.h"
 #include "nacre/compare/printed_numbers.h"
 #include "nacre/compare/report.h"
 
@@ -104,6 +105,10 @@ ordered_json summary_rows(const std::vector<SuiteResult>& results) {
             {"name", name},
             {"setting", name.size() < first.id.size() ? first.id.substr(name.size() + 1) : ""},
             {"title", first.title}};
+        if (!first.same_as.empty() && std::ranges::all_of(cells, [&](const SuiteCell* c) {
+                return !c->why.empty() || c->same_as == first.same_as;
+            }))
+            row["same_as"] = first.same_as;
         row["status"] = errors.empty() ? "failed" : "ok";
         if (errors.empty()) row["why"] = first.why;
         row["values"]["cases"] = errors.size();
@@ -160,12 +165,17 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
     r.picture = shrunk(e.reference.picture, thumbnail_side);
     r.reference_error = e.reference.error;
     r.reference_cpu_seconds = e.reference.cpu_seconds;
-    for (const ExperimentRow& row : e.rows) {
+    const auto same = identical_rows(e.rows);
+    const auto id_of = [](const TechniqueSetting& s) {
+        // All have the same number of samples, which stands above.
+        const std::string options = s.options();
+        return s.choice.technique + (options.empty() ? "" : " " + options);
+    };
+    for (std::size_t i = 0; i < e.rows.size(); ++i) {
+        const ExperimentRow& row = e.rows[i];
         if (row.peer) continue;
         const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
-        // All have the same number of samples, which stands above.
-        const std::string options = row.setting.options();
-        SuiteCell cell{.id = row.setting.choice.technique + (options.empty() ? "" : " " + options),
+        SuiteCell cell{.id = id_of(row.setting),
                        .title = std::string(technique.title),
                        .why = row.measurement.why,
                        .may_change = std::string(technique.may_change)};
@@ -180,9 +190,67 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
         } else if (cell.why.empty()) {
             cell.why = "not run";
         }
+        if (same[i]) cell.same_as = id_of(e.rows[*same[i]].setting);
         r.cells.push_back(std::move(cell));
     }
     return r;
+}
+
+std::vector<std::string> advise(const std::vector<SuiteResult>& results,
+                                const std::string& reference) {
+    struct Summary {
+        std::string name;
+        double error, seconds;
+    };
+    std::vector<Summary> all;
+    std::size_t partial = 0;
+    if (!results.empty())
+        for (const SuiteCell& first : results.front().cells) {
+            const std::string name = first.id.substr(0, first.id.find(' '));
+            if (name == reference || !first.same_as.empty()) continue;
+            const auto cells = of_technique(results, first.id);
+            const auto errors = certain_errors(cells);
+            if (errors.size() < results.size()) {  // only over the easier cases, perhaps
+                ++partial;
+                continue;
+            }
+            all.push_back(
+                {name_with_setting(
+                     name, name.size() < first.id.size() ? first.id.substr(name.size() + 1) : ""),
+                 median(errors),
+                 median(values(cells, &SuiteCell::frame)) +
+                     median(values(cells, &SuiteCell::precompute))});
+        }
+    const std::string over =
+        fmt::format("Over {} {}", results.size(), results.size() == 1 ? "case" : "cases");
+    std::vector<std::string> sentences;
+    const auto words = [](const Summary& s) {
+        return fmt::format("{}: {}, first picture after {}", s.name,
+                           s.error > 0 ? fmt::format("{:.2g} %", 100 * s.error)
+                                       : "no error told from noise",
+                           time_in_words(s.seconds));
+    };
+    if (all.empty()) {
+        sentences.push_back(over + " no technique beside the reference has numbers in every case.");
+    } else {
+        std::ranges::sort(all, {}, [](const Summary& s) { return std::pair(s.error, s.seconds); });
+        sentences.push_back(
+            fmt::format("{} the least median systematic error has {}.", over, words(all.front())));
+        for (const double error : {0.1, 0.05}) {
+            const Summary* fastest = nullptr;
+            for (const Summary& s : all)
+                if (s.error < error && (!fastest || s.seconds < fastest->seconds)) fastest = &s;
+            if (fastest && fastest != &all.front())
+                sentences.push_back(
+                    fmt::format("Below {:g} % the fastest is {}.", 100 * error, words(*fastest)));
+            else if (!fastest)
+                sentences.push_back(fmt::format("Below {:g} % stays none.", 100 * error));
+        }
+    }
+    if (partial)
+        sentences.push_back(fmt::format("{} without numbers in some cases {} not counted.", partial,
+                                        partial == 1 ? "is" : "are"));
+    return sentences;
 }
 
 ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, int width,
@@ -210,6 +278,10 @@ ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, 
         d["warnings"].push_back(
             "The suite was interrupted: cases without numbers were not run. The same command goes "
             "on where it stopped.");
+    d["verdict"] = {{"sentences", advise(results, o.reference.technique.technique)},
+                    {"text",
+                     "Medians over the cases, complete simulation left out; errors that may be "
+                     "noise count as 0."}};
     d["notes"] = {
         {{"title", "The cases"},
          {"text",

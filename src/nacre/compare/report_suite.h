@@ -13,6 +13,7 @@ struct SuiteCell {
     double frame = 0, precompute = 0;                      ///< s
     double memory_mb = 0;
     std::string may_change;
+    std::string same_as = {};  ///< id of an earlier one whose pictures have the same bits
 };
 struct SuiteResult {
     SuiteCase which;
@@ -22,6 +23,10 @@ struct SuiteResult {
 };
 
 SuiteResult summarise(const SuiteCase& which, const Experiment& e);
+
+/// Which technique is nearest over the cases, and which is fast: a sentence or more.
+std::vector<std::string> advise(const std::vector<SuiteResult>& results,
+                                const std::string& reference);
 
 nlohmann::ordered_json describe_suite(const std::vector<SuiteResult>& results, int cases, int width,
                                       int height, const ExperimentOptions& options,

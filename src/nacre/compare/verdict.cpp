@@ -35,7 +35,9 @@ Verdict judge(const Measurement& m, const Image& reference, const Image& referen
     // The noise of the measurement alone: that of the reference is no part of a frame.
     const Metrics own = compare({m.mean, &m.variance}, {reference}, mask, options);
     v.noise = std::sqrt(own.rel_mse.noise.value_or(0.) * m.repeats());
-    v.pixel_systematic = std::sqrt(std::max(0., v.metrics.rel_mse.corrected()));
+    const Uncertain pixels = root(v.metrics.rel_mse);
+    v.pixel_systematic = pixels.value;
+    v.pixel_sigma = pixels.sigma;
     v.frame = std::hypot(v.noise, v.pixel_systematic);
     HdrFlipResult flip = flip_hdr(m.frame, reference, mask);
     v.flip = flip.mean;

@@ -21,6 +21,7 @@ struct Verdict {
     double frame = 0;
     double noise = 0;             ///< the part of it that is noise
     double pixel_systematic = 0;  ///< the rest of it, sqrt(frame^2 - noise^2)
+    double pixel_sigma = 0;       ///< one standard error of the rest
     double flip = 0;              ///< HDR-FLIP of one frame
     Image flip_map;               ///< channel Y
     /// The metrics of the mean of all repeats against the reference.

@@ -11,6 +11,7 @@ function headerSection() {
         report.warnings?.length ? el("div", {class: "warnings", role: "note", "aria-label": "Warnings"},
                                      report.warnings.map(text => el("p", {}, text))) :
                                   null,
+        verdictBox(),
         report.facts?.length ? pairs(report.facts, {id: "facts"}) : null,
         report.command ?
             el("div", {class: "made-by"}, el("span", {class: "name"}, "Made by"), command(report.command)) :

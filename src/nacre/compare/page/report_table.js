@@ -51,11 +51,25 @@ function tableSection() {
             line.querySelector("button.row")?.setAttribute("aria-pressed", chosen);
         }
     };
+    state.on("reach", () => {
+        const column = columnOf.get("reach");
+        if (!column) return;
+        const at = shownColumns().indexOf(column), marked = bestOf().get("reach");
+        for (const row of rows.filter(row => row.status === "ok"))
+            lines.get(row.id).children[at + 1].replaceWith(cell(row, column, marked?.has(row.id)));
+        heads[at].querySelector("span").replaceChildren(column.title, el("small", {}, ` ${column.unit}`));
+        order();
+    });
+    state.on("sort-reach", () => {
+        Object.assign(sorting, {key: "reach", descending: false});
+        order();
+    });
     state.on("select", mark);
     order();
     mark();
     return section(
         "table", report.kind === "models" ? "Models" : "Techniques",
+        el("p", {class: "sideways", "aria-hidden": "true"}, "The table scrolls sideways →"),
         el("div", {class: "scroll", tabindex: 0, role: "region", "aria-label": "Table, scrolls sideways"},
            table),
         tableNotes());
@@ -70,8 +84,9 @@ function tableRow(row, best) {
     const name = [
         markerIcon(row.name),
         el("span", {class: "names"},
-           el("span", {}, row.name, row.setting && [" ", el("small", {}, breakable(row.setting))]),
+           el("span", {}, breakable(row.name), row.setting && [" ", el("small", {}, breakable(row.setting))]),
            row.title && row.title !== row.name && el("small", {class: "long"}, row.title),
+           row.same_as !== undefined && el("small", {class: "same"}, "identical to ", breakable(row.same_as)),
            row.peer && el("small", {class: "tag"}, "another renderer"))
     ];
     const shows = canUnpack && row.picture !== undefined && report.pictures?.[row.picture];
