@@ -7,6 +7,7 @@
 #include "apps/cli/progress_bar.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
+#include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
@@ -46,7 +47,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
                                 {"scatterings", r.counts.scatterings},
                                 {"invalid_samples", r.film.invalid_count()},
                                 {"mean", {mean.x, mean.y, mean.z}},
-                                {"warnings", scene.warnings}};
+                                {"warnings", warnings_of(scene)}};
     for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
     fmt::print("{}\n", json.dump(2));
 }
@@ -54,7 +55,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
 }  // namespace
 
 int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation) {
-    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    for (const std::string& w : warnings_of(scene)) fmt::print(stderr, "nacre: warning: {}\n", w);
     const std::atomic<bool>& stop = interrupt_flag();
     const RenderResult result = [&] {
         ProgressBar bar(options.quiet);

@@ -9,6 +9,7 @@
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
+#include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
@@ -139,7 +140,7 @@ Image compose(const std::vector<Image>& tiles) {
 /// Empty if Ctrl-C came before the picture was complete.
 std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
     const Scene scene = load(file, o);
-    for (const std::string& w : scene.warnings) fmt::print(stderr, "nacre: warning: {}\n", w);
+    for (const std::string& w : warnings_of(scene)) fmt::print(stderr, "nacre: warning: {}\n", w);
     ProgressBar bar(o.quiet);
     RenderOptions options;
     options.threads = o.threads;
