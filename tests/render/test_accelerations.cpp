@@ -94,8 +94,9 @@ class Accelerations : public RenderTest {
 // The grid only leaves out rays that could not have met anything, so each path stays itself, with
 // guided exits as without: those do not hang on it.
 TEST_F(Accelerations, TheGridLeavesEachPathItself) {
+    using Case = std::pair<bool, bool>;
     for (const auto& [smooth, guided] :
-         {std::pair(false, false), {true, false}, {false, true}, {true, true}})
+         {Case(false, false), Case(true, false), Case(false, true), Case(true, true)})
         for (const std::string light : {"square", "two lights and sky"}) {
             const std::string objects =
                 xml::shape("obj", lens() + xml::flag("face_normals", !smooth) +
