@@ -11,6 +11,7 @@
 #include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/split_words.h"
+#include "nacre/subsurface/missing_light.h"
 
 namespace nacre::cli {
 namespace {
@@ -93,6 +94,8 @@ int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation
     Scene scene = load(o.input, app);
     options.peer_source = peer_source(o.input, options.settings.front().samples);
     for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
+    // Every row has its own integrator; the one that may lack light is the simulation.
+    for (const std::string& w : missing_in_simulation(scene)) say("nacre: warning: {}\n", w);
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;
     options.warn = [](const std::string& message) { say("nacre: warning: {}\n", message); };

@@ -10,6 +10,7 @@
 #include "apps/cli/streams.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
+#include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
@@ -49,7 +50,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
                                 {"scatterings", r.counts.scatterings},
                                 {"invalid_samples", r.film.invalid_count()},
                                 {"mean", {mean.x, mean.y, mean.z}},
-                                {"warnings", scene.warnings}};
+                                {"warnings", warnings_of(scene)}};
     for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
     fmt::print("{}\n", json.dump(2));
 }
@@ -73,7 +74,7 @@ void refuse_too_large(const FilmSettings& film) {
 }  // namespace
 
 int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation) {
-    for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
+    for (const std::string& w : warnings_of(scene)) say("nacre: warning: {}\n", w);
     refuse_too_large(scene.film);
     const std::atomic<bool>& stop = interrupt_flag();
     const RenderResult result = [&] {

@@ -12,6 +12,7 @@
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/whole_file.h"
+#include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {
@@ -142,7 +143,7 @@ Image compose(const std::vector<Image>& tiles) {
 /// Empty if Ctrl-C came before the picture was complete.
 std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
     const Scene scene = load(file, o);
-    for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
+    for (const std::string& w : warnings_of(scene)) say("nacre: warning: {}\n", w);
     ProgressBar bar(o.quiet);
     RenderOptions options;
     options.threads = o.threads;

@@ -8,6 +8,7 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/image.h"
 #include "nacre/scene/load.h"
+#include "nacre/subsurface/missing_light.h"
 
 namespace nacre::cli {
 namespace {
@@ -92,7 +93,7 @@ ordered_json describe_scene(const std::filesystem::path& file) {
             {"shapes", shapes},
             {"lights", scene.lights.size()},
             {"media", scene.media.size()},
-            {"warnings", scene.warnings}};
+            {"warnings", warnings_of(scene)}};
 }
 
 /// "key: value" lines; what is nested is indented.

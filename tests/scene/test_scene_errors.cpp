@@ -228,7 +228,8 @@ const Wrong objects[] = {
     {"SubsurfaceBoundary",
      R"(<shape type="sphere"><bsdf type="diffuse"/>
 <subsurface type="dipole"><string name="material" value="marble"/></subsurface></shape>)",
-     "scene.xml:3:1: the shape's <bsdf> must be a smooth dielectric, or be left out"},
+     "scene.xml:3:1: the shape's <bsdf> must be a dielectric without dispersion or tint, smooth or "
+     "equally rough everywhere, or be left out"},
     {"SubsurfaceIndex",
      R"(<shape type="sphere"><bsdf type="dielectric"/><subsurface type="dipole">
 <string name="material" value="marble"/><float name="int_ior" value="1.3"/></subsurface></shape>)",

@@ -70,7 +70,8 @@ TEST_F(Subsurface, TechniquesTakeMediaBehindSmoothBoundaries) {
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(),
                      "technique 'surface' has nothing to do: no shape has a homogeneous medium "
-                     "inside behind a smooth boundary");
+                     "inside behind a dielectric boundary, smooth or equally rough everywhere, "
+                     "without dispersion or tint");
     }
 }
 

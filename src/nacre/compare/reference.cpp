@@ -10,6 +10,7 @@
 #include "nacre/math/random.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/scene/whole_file.h"
+#include "nacre/subsurface/missing_light.h"
 
 namespace nacre {
 namespace {
@@ -156,6 +157,7 @@ double block_standard_error(const Image& picture, const Image& variance, const P
 
 Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOptions& options) {
     if (!(options.error > 0)) throw InputError("the error of a reference must be positive");
+    if (!find_technique(options.technique.technique).make) require_lit_insides(scene);
     const WithSetting as_reference(scene, options.technique);
     scene.sampler.type = "independent";  // whose variance is known
     scene.integrator.moment = true;

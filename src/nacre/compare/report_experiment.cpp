@@ -10,6 +10,7 @@
 #include "nacre/compare/crops.h"
 #include "nacre/compare/machine.h"
 #include "nacre/compare/report.h"
+#include "nacre/subsurface/missing_light.h"
 
 namespace nacre {
 namespace {
@@ -270,6 +271,7 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
     d["command"] = origin.command;
     d["warnings"] = ordered_json::array();
     for (const std::string& w : scene.warnings) d["warnings"].push_back(w);
+    for (const std::string& w : missing_in_simulation(scene)) d["warnings"].push_back(w);
     if (!e.complete)
         d["warnings"].push_back(
             "The comparison was interrupted: rows without numbers were not run. The same command "

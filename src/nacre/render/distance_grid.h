@@ -44,6 +44,10 @@ class DistanceGrid {
     std::size_t cell_count() const { return cells_.size(); }
     Point3f center(std::size_t cell) const;
     float clearance(std::size_t cell) const { return cells_[cell].clearance; }
+    /// Every clearance is 0 from now on: all rays are traced.
+    void forget_distances() {
+        for (Stored& cell : cells_) cell.clearance = 0.f;
+    }
     void set_guide(std::size_t cell, std::int32_t guide) { cells_[cell].guide = guide; }
 
   private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nacre/render/roulette.h"
+#include "nacre/render/shading_normal.h"
 #include "nacre/render/shadow_ray.h"
 
 namespace nacre {
@@ -42,18 +43,24 @@ void SurfacePath::follow() {
     }
 }
 
-bool SurfacePath::at_surface(const SurfacePoint& at) {
-    const Vec3f wo = at.shading.to_local(-ray_.d);
+bool SurfacePath::at_surface(SurfacePoint& at) {
     if (!tracer_.below_.empty())
-        if (const Translucency* below = tracer_.below_[at.shape].get())
+        if (const Translucency* below = tracer_.below_[at.shape].get()) {
             // From below one would look out through the boundary, as if the object were empty.
-            return wo.z > 0.f && at_translucent(at, *below, wo);
-    return scatter(at, *scene_.shapes[at.shape].material, wo);
+            if (!(dot(ray_.d, at.ng) < 0.f)) return false;
+            turn_to_viewer(at, -ray_.d, below->boundary().eta() != 1.f);
+            return at_translucent(at, *below, at.shading.to_local(-ray_.d));
+        }
+    const Material& material = *scene_.shapes[at.shape].material;
+    if (!(material.flags() & transmits)) turn_to_viewer(at, -ray_.d, !material.is_lambertian());
+    return scatter(at, material, at.shading.to_local(-ray_.d));
 }
 
 bool SurfacePath::at_translucent(const SurfacePoint& at, const Translucency& below,
                                  const Vec3f& wo) {
-    const float reflected = below.eta() == 1.f ? 0.f : fresnel_dielectric(wo.z, below.eta());
+    if (const Material* rough = below.boundary().rough()) return at_rough(at, below, *rough, wo);
+    const float eta = below.boundary().eta();
+    const float reflected = eta == 1.f ? 0.f : fresnel_dielectric(wo.z, eta);
     if (depth_ == 0 && reflected > 0.f) {
         // What the camera sees is followed both ways: a mirror image of a lamp that one path in
         // twenty finds is noise.
@@ -67,6 +74,32 @@ bool SurfacePath::at_translucent(const SurfacePoint& at, const Translucency& bel
     } else if (sampler_.next1d() < reflected) {
         return reflect(at, wo);
     }
+    return enter(at, below, wo);
+}
+
+bool SurfacePath::at_rough(const SurfacePoint& at, const Translucency& below, const Material& rough,
+                           const Vec3f& wo) {
+    // Lights below the surface are hidden by it: of the lobes the reflecting one is left.
+    const Vec3f up = at.ng;
+    if (within_depth(1)) result_ += throughput_ * direct_light(at, rough, wo, &up);
+    const float u1 = sampler_.next1d();
+    const auto sample = rough.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
+    if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
+    if (sample->wi.z > 0.f) {
+        throughput_ *= sample->weight;
+        leave(at, at.shading.to_world(sample->wi));
+        certain_ = false;
+        pdf_ = sample->pdf;
+        from_ = at.p;
+        return goes_on();
+    }
+    // What emerges is the same whichever facet refracts it, so that the weight, as a share of
+    // power, is an estimate of the transmittance.
+    throughput_ *= sample->weight * Spectral(sample->eta * sample->eta);
+    return enter(at, below, wo);
+}
+
+bool SurfacePath::enter(const SurfacePoint& at, const Translucency& below, const Vec3f& wo) {
     const Translucency::Emergence e = below.emerge(at, wo, sampler_, wavelengths_, counts_);
     result_ += throughput_ * e.radiance;
     if (!e.entry || !(max_lane(e.weight) > 0.f)) return false;
@@ -132,13 +165,14 @@ void SurfacePath::add_emission(const Light& light, const SurfacePoint* on_light)
 }
 
 Spectral SurfacePath::direct_light(const SurfacePoint& at, const Material& material,
-                                   const Vec3f& wo) {
+                                   const Vec3f& wo, const Vec3f* above) {
     const LightChooser::Choice choice = tracer_.lights_.choose(at.p, sampler_.next1d());
     const Vec2f u = sampler_.next2d();
     if (!choice.light) return Spectral(0.f);
     const LightSample light = choice.light->sample(at.p, u, wavelengths_);
     if (!(light.pdf > 0.f) || !(max_lane(light.radiance) > 0.f)) return Spectral(0.f);
     const Vec3f wi = at.shading.to_local(light.wi);
+    if (above && !(wi.z > 0.f && dot(light.wi, *above) > 0.f)) return Spectral(0.f);
     const Spectral f = material.eval(at, wo, wi, wavelengths_);
     if (!(max_lane(f) > 0.f)) return Spectral(0.f);
     const float light_pdf = light.pdf * choice.probability;

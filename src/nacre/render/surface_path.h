@@ -23,13 +23,18 @@ class SurfacePath {
     // Follows the ray, and what becomes of it, to the end.
     void follow();
     // Each meets one thing and turns the ray to where the path goes on; false ends the path.
-    bool at_surface(const SurfacePoint& at);
+    bool at_surface(SurfacePoint& at);
     bool at_translucent(const SurfacePoint& at, const Translucency& below, const Vec3f& wo);
+    bool at_rough(const SurfacePoint& at, const Translucency& below, const Material& rough,
+                  const Vec3f& wo);
+    // Goes below a translucent surface and on from where the light came in.
+    bool enter(const SurfacePoint& at, const Translucency& below, const Vec3f& wo);
     bool scatter(const SurfacePoint& at, const Material& material, const Vec3f& wo);
     bool reflect(const SurfacePoint& at, const Vec3f& wo);
 
     void add_emission(const Light& light, const SurfacePoint* on_light);
-    Spectral direct_light(const SurfacePoint& at, const Material& material, const Vec3f& wo);
+    Spectral direct_light(const SurfacePoint& at, const Material& material, const Vec3f& wo,
+                          const Vec3f* above = nullptr);
     void leave(const SurfacePoint& at, const Vec3f& direction);
     bool within_depth(int more) const {
         const int max_depth = scene_.integrator.max_depth;

@@ -12,10 +12,11 @@ constexpr int most_candidates = 64;
 
 }  // namespace
 
-SurfaceSampling::SurfaceSampling(const Scene& scene, std::uint32_t shape, float eta,
+SurfaceSampling::SurfaceSampling(const Scene& scene, std::uint32_t shape,
+                                 const ObjectBoundary& boundary,
                                  std::shared_ptr<const ProfileTables> profile, float exit_scale,
                                  std::shared_ptr<const SingleScatteringTerm> single)
-    : Translucency(eta),
+    : Translucency(boundary),
       scene_(scene),
       shape_(shape),
       profile_(std::move(profile)),

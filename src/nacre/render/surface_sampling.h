@@ -18,7 +18,7 @@ class SurfaceSampling final : public Translucency {
   public:
     /// `exit_scale` multiplies what leaves (1, or 1 over the mean transmittance of the boundary).
     /// `single` may be null.
-    SurfaceSampling(const Scene& scene, std::uint32_t shape, float eta,
+    SurfaceSampling(const Scene& scene, std::uint32_t shape, const ObjectBoundary& boundary,
                     std::shared_ptr<const ProfileTables> profile, float exit_scale,
                     std::shared_ptr<const SingleScatteringTerm> single);
 
@@ -38,8 +38,9 @@ class SurfaceSampling final : public Translucency {
 /// matter: Lambert's law with the profile's total, below the same boundary.
 class LocalReflection final : public Translucency {
   public:
-    LocalReflection(float eta, std::shared_ptr<const ProfileTables> profile, float exit_scale)
-        : Translucency(eta), profile_(std::move(profile)), exit_scale_(exit_scale) {}
+    LocalReflection(const ObjectBoundary& boundary, std::shared_ptr<const ProfileTables> profile,
+                    float exit_scale)
+        : Translucency(boundary), profile_(std::move(profile)), exit_scale_(exit_scale) {}
 
     Emergence emerge(const SurfacePoint& exit, const Vec3f&, Sampler&, const Wavelengths& w,
                      RayCounts&) const override {

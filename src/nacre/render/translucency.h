@@ -10,8 +10,8 @@
 #include <memory>
 #include <optional>
 
-#include "nacre/optics/fresnel.h"
 #include "nacre/render/integrator.h"
+#include "nacre/render/object_boundary.h"
 
 namespace nacre {
 
@@ -19,8 +19,7 @@ namespace nacre {
 /// the boundary, T(w_i) / pi. A path that goes on from an entry point goes on from this material.
 class EntryLobe final : public Material {
   public:
-    /// `eta`: index inside over outside; 1 if there is no boundary.
-    explicit EntryLobe(float eta) : eta_(eta) {}
+    explicit EntryLobe(ObjectBoundary boundary) : boundary_(std::move(boundary)) {}
 
     /// Whether light can fall onto the surface from `wi` (local): where interpolated normals lean
     /// over its edge, directions above them may lead inside.
@@ -37,13 +36,13 @@ class EntryLobe final : public Material {
                                          const Wavelengths&) const override;
 
   private:
-    float eta_;
+    ObjectBoundary boundary_;
 };
 
 /// One shape's matter. Immutable once built; `emerge` is called by many threads.
 class Translucency {
   public:
-    explicit Translucency(float eta) : eta_(eta), entry_(eta) {}
+    explicit Translucency(const ObjectBoundary& boundary) : boundary_(boundary), entry_(boundary) {}
     virtual ~Translucency() = default;
 
     struct Emergence {
@@ -56,14 +55,14 @@ class Translucency {
     virtual Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                              const Wavelengths& wavelengths, RayCounts& counts) const = 0;
 
-    float eta() const { return eta_; }
+    const ObjectBoundary& boundary() const { return boundary_; }
     /// What a path goes on from at an entry: a "reflector" towards the `wo` of `emerge`, without
     /// the boundary's transmittance in that direction. Where light enters elsewhere than it leaves,
     /// `wo` means nothing there and the lobe must not look at it.
     virtual const Material& entry() const { return entry_; }
 
   private:
-    float eta_;
+    ObjectBoundary boundary_;
     EntryLobe entry_;
 };
 using TranslucencyPtr = std::shared_ptr<const Translucency>;

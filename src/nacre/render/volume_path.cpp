@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nacre/render/roulette.h"
+#include "nacre/render/shading_normal.h"
 #include "nacre/render/walk.h"
 
 namespace nacre {
@@ -187,12 +188,14 @@ bool VolumePath::at_collision() {
 }
 
 bool VolumePath::at_surface() {
-    const SurfacePoint at = scene_.rays.surface_point(ray_, *hit_);
+    SurfacePoint at = scene_.rays.surface_point(ray_, *hit_);
     const ShapeBinding& shape = scene_.shapes[hit_->shape];
     if (shape.light && !(depth_ == 0 && scene_.integrator.hide_emitters))
         add_emission(*shape.light, &at);
 
     const Material& material = *shape.material;
+    // Where light passes, paths go on below an interpolated normal; elsewhere they would end.
+    if (!(material.flags() & transmits)) turn_to_viewer(at, -ray_.d, !material.is_lambertian());
     const Vec3f wo = at.shading.to_local(-ray_.d);
     if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &material, wo);
 

@@ -56,14 +56,16 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
         !refracts_everywhere || std::ranges::any_of(scene_.lights, [&](const LightPtr& light) {
             return !light->bounds().empty() && overlap(light->bounds(), bounds);
         });
-    if (!medium.homogeneous() || !scene_.integrator.distance_grid) return;
+    // Exits are guided from the grid's cells, whether or not its distances save rays.
+    const bool guided = scene_.integrator.guided_exits && smooth && !info.connect;
+    if (!medium.homogeneous() || !(scene_.integrator.distance_grid || guided)) return;
     const Vec3f sigma_t = medium.sigma_t->rgb();
     const float thickest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * medium.scale;
     if (!(thickest > 0.f)) return;
     info.grid =
         DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells, work);
-    if (scene_.integrator.guided_exits && smooth && !info.connect)
-        info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid, work);
+    if (guided) info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid, work);
+    if (!scene_.integrator.distance_grid) info.grid.forget_distances();
 }
 
 Spectral VolumePathTracer::radiance(const Ray& ray, Sampler& sampler,

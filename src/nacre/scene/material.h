@@ -64,6 +64,12 @@ class Material {
     /// without dispersion and tint, else 0. The random walk below a surface uses it to guide paths
     /// out through the boundary.
     virtual float smooth_boundary_eta() const { return 0.f; }
+    /// The same of a rough dielectric boundary that is equally rough everywhere and without tint,
+    /// else 0.
+    virtual float rough_boundary_eta() const { return 0.f; }
+    /// Whether all of it follows Lambert's law, so that the direction of the viewer makes no
+    /// difference but for the side.
+    virtual bool is_lambertian() const { return false; }
     virtual bool is_spectral() const { return false; }
 };
 using MaterialPtr = std::shared_ptr<const Material>;

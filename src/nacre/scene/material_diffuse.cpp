@@ -29,6 +29,7 @@ class Diffuse final : public Material {
         s.weight = reflectance_->eval(at.uv, w);
         return s;
     }
+    bool is_lambertian() const override { return true; }
     bool is_spectral() const override { return reflectance_->is_spectral(); }
 
   private:

@@ -40,6 +40,7 @@ class Masked final : public Material {
                                const Wavelengths& w) const override {
         return 1.f - opacity(at) * (1.f - material_->null_transmission(at, wo, w));
     }
+    bool is_lambertian() const override { return material_->is_lambertian(); }
     bool is_spectral() const override { return material_->is_spectral(); }
 
   private:

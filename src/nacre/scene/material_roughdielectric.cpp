@@ -42,6 +42,14 @@ class RoughDielectricMaterial final : public Material {
         if (s.wi.z * wo.z < 0.f) s.eta = wo.z > 0.f ? eta_ : 1.f / eta_;
         return s;
     }
+    float rough_boundary_eta() const override {
+        const auto is = [](const Texture& t, float value) {
+            return t.max() == value && t.mean() == value;
+        };
+        const bool even = is(*roughness_.alpha_u, roughness_.alpha_u->max()) &&
+                          is(*roughness_.alpha_v, roughness_.alpha_v->max());
+        return even && is(*reflectance_, 1.f) && is(*transmittance_, 1.f) ? eta_ : 0.f;
+    }
     bool is_spectral() const override {
         return reflectance_->is_spectral() || transmittance_->is_spectral();
     }

@@ -30,6 +30,9 @@ class TwoSided final : public Material {
         if (s) s->wi = mirrored(s->wi);
         return s;
     }
+    bool is_lambertian() const override {
+        return front_->is_lambertian() && back_->is_lambertian();
+    }
     bool is_spectral() const override { return front_->is_spectral() || back_->is_spectral(); }
 
   private:

@@ -138,17 +138,21 @@ void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_materi
                                                name));
     node.check_all_used();
     if (!is_translucent(shape))
-        node.fail("the shape's <bsdf> must be a smooth dielectric, or be left out");
+        node.fail(
+            "the shape's <bsdf> must be a dielectric without dispersion or tint, smooth "
+            "or equally rough everywhere, or be left out");
     shape.subsurface = std::move(settings);
 }
 
 bool is_translucent(const ShapeBinding& shape) {
     return shape.interior && !shape.exterior && shape.interior->homogeneous() &&
-           (shape.material->smooth_boundary_eta() > 0.f || shape.material->flags() == has_null);
+           (boundary_eta(shape) != 1.f || shape.material->smooth_boundary_eta() > 0.f ||
+            shape.material->flags() == has_null);
 }
 
 float boundary_eta(const ShapeBinding& shape) {
-    const float eta = shape.material->smooth_boundary_eta();
+    const float eta =
+        std::max(shape.material->smooth_boundary_eta(), shape.material->rough_boundary_eta());
     return eta > 0.f ? eta : 1.f;
 }
 
@@ -166,7 +170,7 @@ void use_technique(Scene& scene, const std::function<void(SubsurfaceSettings&)>&
         change(asked);
         throw InputError(fmt::format(
             "technique '{}' has nothing to do: no shape has a homogeneous medium inside behind a "
-            "smooth boundary",
+            "dielectric boundary, smooth or equally rough everywhere, without dispersion or tint",
             asked.technique));
     }
     scene.integrator.type = "path";

@@ -44,8 +44,8 @@ std::span<const SubsurfaceOption> subsurface_options();
 /// Sets an option from text; throws InputError for unknown names and values outside the range.
 void set_option(SubsurfaceSettings& settings, std::string_view name, std::string_view value);
 
-/// Whether a technique can take the shape for a translucent object: its boundary is smooth and it
-/// has a homogeneous medium inside.
+/// Whether a technique can take the shape for a translucent object: its boundary refracts, smooth
+/// or rough, or is not there, and it has a homogeneous medium inside.
 bool is_translucent(const ShapeBinding& shape);
 /// Index inside over outside of a translucent shape; 1 if nothing refracts.
 float boundary_eta(const ShapeBinding& shape);

@@ -24,14 +24,14 @@ double single_scattering_share(double g, double eta) {
 }
 
 LocalScatteringLobe::LocalScatteringLobe(const Medium& medium,
-                                         std::shared_ptr<const ProfileTables> profile, float eta,
-                                         float scale, Orders orders)
+                                         std::shared_ptr<const ProfileTables> profile,
+                                         const ObjectBoundary& boundary, float scale, Orders orders)
     : medium_(medium),
       profile_(std::move(profile)),
-      entry_(eta),
-      eta_(eta),
+      entry_(boundary),
+      eta_(boundary.eta()),
       scale_(scale),
-      share_(float(single_scattering_share(medium.phase.mean_cosine(), eta))),
+      share_(float(single_scattering_share(medium.phase.mean_cosine(), boundary.eta()))),
       orders_(orders) {}
 
 LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) const {
@@ -92,7 +92,8 @@ TranslucencyPtr make_hanrahan_krueger(const TechniqueInput& in) {
         .single = choice != "off",
         .subtracted = choice == "auto" && profile->includes_single_scattering()};
     return std::make_shared<LocalScattering>(
-        in.eta, LocalScatteringLobe(medium, std::move(profile), in.eta, in.exit_scale, orders));
+        in.boundary,
+        LocalScatteringLobe(medium, std::move(profile), in.boundary, in.exit_scale, orders));
 }
 
 }  // namespace nacre

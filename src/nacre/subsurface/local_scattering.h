@@ -33,7 +33,7 @@ class LocalScatteringLobe final : public Material {
     };
     /// `medium` outlives it. `scale` is X.
     LocalScatteringLobe(const Medium& medium, std::shared_ptr<const ProfileTables> profile,
-                        float eta, float scale, Orders orders);
+                        const ObjectBoundary& boundary, float scale, Orders orders);
 
     unsigned flags() const override { return reflects | has_smooth; }
     Spectral eval(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
@@ -62,8 +62,8 @@ class LocalScatteringLobe final : public Material {
 
 class LocalScattering final : public Translucency {
   public:
-    LocalScattering(float eta, LocalScatteringLobe lobe)
-        : Translucency(eta), lobe_(std::move(lobe)) {}
+    LocalScattering(const ObjectBoundary& boundary, LocalScatteringLobe lobe)
+        : Translucency(boundary), lobe_(std::move(lobe)) {}
 
     Emergence emerge(const SurfacePoint& exit, const Vec3f&, Sampler&, const Wavelengths&,
                      RayCounts&) const override {

@@ -81,9 +81,10 @@ struct RandomWalk::Surroundings {
     void collided(const Walker&, const Place&) const {}
 };
 
-RandomWalk::RandomWalk(const Scene& scene, std::uint32_t shape, float eta, const Bands& bands,
-                       std::span<const RandomWalkMedium<double>> media, float exit_scale)
-    : Translucency(eta),
+RandomWalk::RandomWalk(const Scene& scene, std::uint32_t shape, const ObjectBoundary& boundary,
+                       const Bands& bands, std::span<const RandomWalkMedium<double>> media,
+                       float exit_scale)
+    : Translucency(boundary),
       scene_(scene),
       shape_(shape),
       bands_(bands),
@@ -152,7 +153,8 @@ TranslucencyPtr make_random_walk(const TechniqueInput& in) {
         walks[i] = random_walk_medium(media[i], keep);
         phase.advance();
     });
-    return std::make_shared<RandomWalk>(in.scene, in.shape, in.eta, bands, walks, in.exit_scale);
+    return std::make_shared<RandomWalk>(in.scene, in.shape, in.boundary, bands, walks,
+                                        in.exit_scale);
 }
 
 }  // namespace nacre

@@ -45,8 +45,9 @@ class RandomWalk final : public Translucency {
   public:
     /// `media`: the walk's coefficients in each band, per scene unit. `exit_scale` multiplies what
     /// leaves.
-    RandomWalk(const Scene& scene, std::uint32_t shape, float eta, const Bands& bands,
-               std::span<const RandomWalkMedium<double>> media, float exit_scale);
+    RandomWalk(const Scene& scene, std::uint32_t shape, const ObjectBoundary& boundary,
+               const Bands& bands, std::span<const RandomWalkMedium<double>> media,
+               float exit_scale);
 
     /// No entry if the walk is absorbed or gets lost through a hole. Other shapes inside are
     /// ignored.

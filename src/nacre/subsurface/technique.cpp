@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "nacre/bssrdf/exit_fresnel.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/names.h"
 #include "nacre/render/path_tracer.h"
@@ -136,7 +135,7 @@ class StandIn final : public Translucency {
 };
 
 TranslucencyPtr make_stand_in(const TechniqueInput& in) {
-    const float mirror = float(diffuse_reflectance_external(in.eta)), enters = 1.f - mirror;
+    const float mirror = float(in.boundary.mean_reflectance()), enters = 1.f - mirror;
     return std::make_shared<StandIn>(tables_of(in), mirror, enters * enters * in.exit_scale);
 }
 
@@ -154,6 +153,8 @@ void refuse_flat(const Scene& scene, std::uint32_t shape) {
 const TechniqueDescription& technique_of(const SubsurfaceSettings& settings) {
     return *at_place(settings, [&] { return &find_technique(settings.technique); });
 }
+
+bool has_technique(const ShapeBinding& shape) { return shape.subsurface != nullptr; }
 
 /// Whether the shape asks for complete simulation.
 bool wants_simulation(const ShapeBinding& shape) {
@@ -195,12 +196,12 @@ class TechniqueIntegrator final : public Integrator {
                          const Work& work) {
         const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
         refuse_flat(scene, shape);
-        const float eta = boundary_eta(scene.shapes[shape]);
-        const DiffuseBssrdf boundary(
-            eta, settings.exit == "paper" ? ExitFresnel::paper : ExitFresnel::normalised);
-        const float scale = float(boundary.scale());
+        const ObjectBoundary boundary = ObjectBoundary::of(scene.shapes[shape]);
+        const float scale = float(boundary.white_return() /
+                                  (settings.exit == "paper" ? 1. : boundary.mean_transmittance()));
         return at_place(settings, [&] {
-            return maker({scene, shape, settings, eta, scale, light, statistics_, work});
+            return maker({scene, shape, settings, boundary.eta(), scale, boundary, light,
+                          statistics_, work});
         });
     }
 
@@ -270,13 +271,16 @@ void choose_technique(Scene& scene, const TechniqueChoice& choice) {
     });
 }
 
-std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene, const Work& work) {
-    const auto translucent = [](const ShapeBinding& s) { return s.subsurface != nullptr; };
-    if (scene.integrator.type != "path" || std::ranges::none_of(scene.shapes, translucent))
-        return make_integrator(scene, work);
+bool is_simulated(const Scene& scene) {
+    if (scene.integrator.type != "path") return scene.integrator.type == "volpath";
     const auto count = std::ranges::count_if(scene.shapes, wants_simulation);
-    if (count > 0 && count == std::ranges::count_if(scene.shapes, translucent))
-        return std::make_unique<VolumePathTracer>(scene, work);
+    return count > 0 && count == std::ranges::count_if(scene.shapes, has_technique);
+}
+
+std::unique_ptr<Integrator> make_technique_integrator(const Scene& scene, const Work& work) {
+    if (scene.integrator.type != "path" || std::ranges::none_of(scene.shapes, has_technique))
+        return make_integrator(scene, work);
+    if (is_simulated(scene)) return std::make_unique<VolumePathTracer>(scene, work);
     return std::make_unique<TechniqueIntegrator>(scene, work);
 }
 
@@ -288,13 +292,13 @@ std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const Technique
 }
 
 TranslucencyPtr make_local_reflection(const TechniqueInput& in) {
-    return std::make_shared<LocalReflection>(in.eta, tables_of(in), in.exit_scale);
+    return std::make_shared<LocalReflection>(in.boundary, tables_of(in), in.exit_scale);
 }
 
 TranslucencyPtr make_surface_sampling(const TechniqueInput& in) {
     const auto tables = tables_of(in);
     return std::make_shared<SurfaceSampling>(
-        in.scene, in.shape, in.eta, tables, in.exit_scale,
+        in.scene, in.shape, in.boundary, tables, in.exit_scale,
         single_scattering_of(in, tables->includes_single_scattering()));
 }
 

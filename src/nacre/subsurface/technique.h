@@ -20,7 +20,9 @@ struct TechniqueInput {
     std::uint32_t shape;
     const SubsurfaceSettings& settings;
     float eta;         ///< index of the medium over that outside
-    float exit_scale;  ///< 1, or 1 over the boundary's mean transmittance (settings.exit)
+    float exit_scale;  ///< 1, or 1 over the boundary's mean transmittance (settings.exit); times
+                       ///< the share of white light that a rough boundary does not lose
+    const ObjectBoundary& boundary;
     /// Traces paths among surfaces, translucent shapes as local reflectors: for light that falls on
     /// the shape. Null while those are being made.
     const PathTracer* light;
@@ -65,6 +67,9 @@ void choose_technique(Scene& scene, const TechniqueChoice& choice);
 /// Throws InputError, as above, for what is wrong with a choice whatever the scene.
 void check_choice(const TechniqueChoice& choice);
 
+/// Whether the scene is rendered by complete simulation: it asks for `volpath`, or for `path` with
+/// that technique in all its translucent shapes. Throws InputError for techniques not known.
+bool is_simulated(const Scene& scene);
 /// The integrator that the scene names, with the techniques that its shapes name if it is `path`.
 /// Precomputation happens here. `scene` outlives it. Throws InputError, with the place in the file
 /// where there is one, for names that are not known, and Stopped if `work` says so.

@@ -100,7 +100,7 @@ ShapePoints spread_points(const TechniqueInput& in, double free_path) {
 /// Power that enters at each point in each band: irradiance behind the boundary times area.
 std::vector<float> power_at(const TechniqueInput& in, const ShapePoints& points,
                             const Bands& bands) {
-    const EntryLobe entry(in.eta);
+    const EntryLobe entry(in.boundary);
     const int groups = bands.groups(),
               samples = std::max(1, in.settings.irradiance_samples / groups);
     std::vector<float> power(points.p.size() * std::size_t(bands.count()));
@@ -217,7 +217,7 @@ TranslucencyPtr make_two_pass(const TechniqueInput& in) {
     in.statistics.push_back({"tree_seconds", watch.lap(), "s"});
     in.statistics.push_back({"tree_bytes", double(tree.bytes()), "bytes"});
     return std::make_shared<TwoPass>(
-        in.eta, std::move(tree), std::move(kernels), bands, in.exit_scale,
+        in.boundary, std::move(tree), std::move(kernels), bands, in.exit_scale,
         single_scattering_of(in, profile->includes_single_scattering()));
 }
 

@@ -13,9 +13,10 @@ namespace nacre {
 class TwoPass final : public Translucency {
   public:
     /// `kernels`: R of each band. `exit_scale` and `single` as of SurfaceSampling.
-    TwoPass(float eta, IrradianceTree tree, std::vector<DipoleKernel> kernels, const Bands& bands,
-            float exit_scale, std::shared_ptr<const SingleScatteringTerm> single)
-        : Translucency(eta),
+    TwoPass(const ObjectBoundary& boundary, IrradianceTree tree, std::vector<DipoleKernel> kernels,
+            const Bands& bands, float exit_scale,
+            std::shared_ptr<const SingleScatteringTerm> single)
+        : Translucency(boundary),
           tree_(std::move(tree)),
           kernels_(std::move(kernels)),
           bands_(bands),

@@ -1,0 +1,147 @@
+#include "nacre/subsurface/missing_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nacre/math/error.h"
+#include "nacre/scene/subsurface.h"
+#include "nacre/subsurface/technique.h"
+
+namespace nacre {
+namespace {
+
+// A ray that looks for one shape meets at most so many others.
+constexpr int most_strangers = 64;
+
+/// Whether `p` is inside of a shape, if that is closed.
+bool is_inside(const Scene& scene, std::uint32_t shape, const Point3f& p) {
+    const Vec3f d{0.36f, 0.48f, 0.8f};
+    Ray ray{p, d};
+    for (int i = 0; i < most_strangers; ++i) {
+        const auto hit = scene.rays.intersect(ray);
+        if (!hit) return false;
+        const SurfacePoint at = scene.rays.surface_point(ray, *hit);
+        if (hit->shape == shape) return dot(at.ng, d) > 0.f;
+        ray.o = at.spawn(d);
+    }
+    return false;
+}
+
+/// Whether some light that no path meets by chance lies outside of the shape.
+bool is_lit_from_points(const Scene& scene, std::uint32_t shape) {
+    return std::ranges::any_of(scene.lights, [&](const LightPtr& light) {
+        if (!light->is_delta()) return false;
+        const Box3f place = light->bounds();
+        return place.empty() || !is_inside(scene, shape, place.center());
+    });
+}
+
+/// Rough boundaries are connected to lights through one facet; smooth ones cannot be.
+bool refracts_smoothly(const ShapeBinding& shape) {
+    const unsigned flags = shape.material->flags();
+    return (flags & transmits) && (flags & has_delta) && !(flags & has_null);
+}
+
+/// "'a'", "'a' and 'b'", "'a', 'b' and 3 more".
+std::string names_of(const Scene& scene, const std::vector<std::uint32_t>& shapes) {
+    constexpr std::size_t most = 3;
+    std::string text;
+    const std::size_t shown = shapes.size() <= most ? shapes.size() : most - 1;
+    for (std::size_t i = 0; i < shown; ++i) {
+        const bool last = i + 1 == shapes.size();
+        text += fmt::format("{}'{}'",
+                            i == 0 ? ""
+                            : last ? " and "
+                                   : ", ",
+                            scene.shapes[shapes[i]].name);
+    }
+    if (shown < shapes.size()) text += fmt::format(" and {} more", shapes.size() - shown);
+    return text;
+}
+
+template <class F>
+std::vector<std::uint32_t> shapes_where(const Scene& scene, F&& test) {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
+        if (test(i, scene.shapes[i])) found.push_back(i);
+    return found;
+}
+
+std::string unseen_media(const Scene& scene) {
+    const bool techniques = scene.integrator.type == "path";
+    const std::vector<std::uint32_t> shapes =
+        shapes_where(scene, [&](std::uint32_t, const ShapeBinding& s) {
+            const bool opaque = !(s.material->flags() & (transmits | has_null));
+            return (s.interior || s.exterior) && !opaque && !(techniques && s.subsurface);
+        });
+    if (shapes.empty() && !scene.camera_medium) return "";
+    const bool translucent = std::ranges::any_of(
+        shapes, [&](std::uint32_t i) { return is_translucent(scene.shapes[i]); });
+    return fmt::format(
+        "integrator '{}' does not see the medium {}: the picture is as if it were not there; use "
+        "--integrator volpath{}",
+        scene.integrator.type,
+        shapes.empty() ? "around the camera" : "at " + names_of(scene, shapes),
+        translucent ? ", or a technique (--technique)" : "");
+}
+
+std::string unmet_lights(const Scene& scene, bool simulated) {
+    const bool any = std::ranges::any_of(scene.lights, &Light::is_delta);
+    const std::vector<std::uint32_t> shapes =
+        shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
+            if (!any || !refracts_smoothly(s) || (!simulated && s.subsurface)) return false;
+            // Matter is lit from within; clear glass does not let a lamp inside shine out.
+            return !(simulated && s.interior) || is_lit_from_points(scene, i);
+        });
+    if (shapes.empty()) return "";
+    const bool translucent = std::ranges::any_of(
+        shapes, [&](std::uint32_t i) { return is_translucent(scene.shapes[i]); });
+    return fmt::format(
+        "point, spot and directional lights do not shine through the smooth boundary of {}: no "
+        "path "
+        "meets them there, and what they would light inside and behind is dark; use small area "
+        "lights{}",
+        names_of(scene, shapes),
+        translucent ? ", a rough boundary or a technique (--technique)" : "");
+}
+
+}  // namespace
+
+std::vector<std::string> missing_in_simulation(const Scene& scene) {
+    const std::string text = unmet_lights(scene, true);
+    return text.empty() ? std::vector<std::string>{} : std::vector{text};
+}
+
+std::vector<std::string> missing_light(const Scene& scene) {
+    if (is_simulated(scene)) return missing_in_simulation(scene);
+    std::vector<std::string> result;
+    if (std::string text = unseen_media(scene); !text.empty()) result.push_back(std::move(text));
+    // Recursive ray tracing and what came before it never had caustics.
+    if (scene.integrator.type == "path")
+        if (std::string text = unmet_lights(scene, false); !text.empty())
+            result.push_back(std::move(text));
+    return result;
+}
+
+std::vector<std::string> warnings_of(const Scene& scene) {
+    std::vector<std::string> result = scene.warnings;
+    for (std::string& text : missing_light(scene)) result.push_back(std::move(text));
+    return result;
+}
+
+void require_lit_insides(const Scene& scene) {
+    const std::vector<std::uint32_t> dark =
+        shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
+            return s.interior && refracts_smoothly(s) && is_lit_from_points(scene, i);
+        });
+    if (dark.empty()) return;
+    throw InputError(
+        fmt::format("complete simulation cannot be the reference: point, spot and directional "
+                    "lights do not light the inside of {} through its smooth boundary, so the "
+                    "truth would lack their light; use small area lights in their place, a rough "
+                    "boundary, or another reference (--reference)",
+                    names_of(scene, dark)));
+}
+
+}  // namespace nacre

@@ -1,0 +1,140 @@
+// What is said of light that an integrator cannot find.
+#include "nacre/subsurface/missing_light.h"
+#include "tests/subsurface/technique_fixture.h"
+
+namespace nacre {
+namespace {
+
+const std::string grey = xml::number("sigma_t", 2) + xml::number("albedo", 0.9);
+const std::string matter = xml::medium("interior", grey);
+const std::string vacuum_ball = xml::sphere({}, 1, xml::dielectric(1.5));
+const std::string point_light =
+    "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"5\"/></emitter>\n";
+const std::string lamp_inside =
+    "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"0.2\"/></emitter>\n";
+const std::string sun =
+    "<emitter type=\"directional\"><vector name=\"direction\" value=\"0, 0, -1\"/></emitter>\n";
+const std::string spot =
+    "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0, 0, 5\" "
+    "target=\"0, 0, 0\" up=\"0, 1, 0\"/></transform></emitter>\n";
+
+std::string named(const std::string& id, const std::string& inside) {
+    return "<shape type=\"sphere\" id=\"" + id + "\">" + inside + "</shape>\n";
+}
+std::string integrator(const std::string& type) { return xml::integrator(type); }
+
+class MissingLight : public Techniques {};
+
+TEST_F(MissingLight, IsSaidOnceForEachKind) {
+    const std::string rough =
+        xml::bsdf("roughdielectric", xml::number("alpha", 0.2) + xml::number("int_ior", 1.5) +
+                                         xml::number("ext_ior", 1));
+    const auto unseen = [](const std::string& integrator, const std::string& what,
+                           bool technique = false) {
+        return "integrator '" + integrator + "' does not see the medium " + what +
+               ": the picture is as if it were not there; use --integrator volpath" +
+               (technique ? ", or a technique (--technique)" : "");
+    };
+    const auto unmet = [](const std::string& what, bool technique = true) {
+        return "point, spot and directional lights do not shine through the smooth boundary of " +
+               what +
+               ": no path meets them there, and what they would light inside and behind is dark; "
+               "use small area lights" +
+               (technique ? ", a rough boundary or a technique (--technique)" : "");
+    };
+    const std::string sky = xml::constant_light();
+    const std::string fog = xml::bsdf("null") + matter, jade = xml::dielectric(1.5) + matter,
+                      glass = xml::dielectric(1.5),
+                      marble = subsurface("dipole", word("method", "brdf")),
+                      simulated = subsurface("dipole", word("method", "volpath"));
+    const struct {
+        std::string what, body;
+        std::vector<std::string> said;
+    } cases[] = {
+        {"fog", integrator("path") + sky + named("a", fog), {unseen("path", "at 'a'", true)}},
+        {"fog, ray", integrator("ray") + sky + named("a", fog), {unseen("ray", "at 'a'", true)}},
+        {"jade", integrator("path") + sky + named("a", jade), {unseen("path", "at 'a'", true)}},
+        {"two of them",
+         integrator("path") + sky + named("a", fog) + named("b", jade),
+         {unseen("path", "at 'a' and 'b'", true)}},
+        {"four of them",
+         integrator("path") + sky + named("a", fog) + named("b", fog) + named("c", fog) +
+             named("d", fog),
+         {unseen("path", "at 'a', 'b' and 2 more", true)}},
+        {"outside",
+         integrator("path") + sky + named("a", xml::bsdf("null") + xml::medium("exterior", grey)),
+         {unseen("path", "at 'a'")}},
+        {"a masked boundary",
+         integrator("path") + sky + named("a", xml::bsdf("mask", xml::bsdf("diffuse")) + matter),
+         {unseen("path", "at 'a'")}},
+        {"recursion has no techniques",
+         integrator("ray") + sky + named("a", marble),
+         {unseen("ray", "at 'a'", true)}},
+        {"seen", integrator("volpath") + sky + named("a", fog) + named("b", jade), {}},
+        {"by a technique", integrator("path") + sky + named("a", marble), {}},
+        {"simulated", integrator("path") + sky + named("a", simulated), {}},
+        {"behind an opaque surface",
+         integrator("path") + sky + named("a", xml::bsdf("diffuse") + matter),
+         {}},
+        {"point", integrator("volpath") + point_light + named("a", jade), {unmet("'a'")}},
+        {"spot", integrator("volpath") + spot + named("a", jade), {unmet("'a'")}},
+        {"sun and sky", integrator("volpath") + sun + sky + named("a", jade), {unmet("'a'")}},
+        {"simulated, sun", integrator("path") + sun + named("a", simulated), {unmet("'a'")}},
+        {"glass", integrator("volpath") + sun + named("a", glass), {unmet("'a'", false)}},
+        {"glass, path", integrator("path") + sun + named("a", glass), {unmet("'a'", false)}},
+        {"glass by recursion", integrator("ray") + sun + named("a", glass), {}},
+        {"a lamp in its bulb",
+         integrator("path") + lamp_inside + named("a", glass),
+         {unmet("'a'", false)}},
+        {"both kinds",
+         integrator("path") + sun + named("a", glass) + named("b", fog),
+         {unseen("path", "at 'b'", true), unmet("'a'", false)}},
+        {"sky", integrator("volpath") + sky + named("a", jade), {}},
+        {"fog in the sun", integrator("volpath") + sun + named("a", fog), {}},
+        {"a rough boundary", integrator("volpath") + sun + named("a", rough + matter), {}},
+        {"thin glass", integrator("path") + sun + named("a", xml::bsdf("thindielectric")), {}},
+        {"a technique in the sun", integrator("path") + sun + named("a", marble), {}},
+        {"a lamp inside", integrator("volpath") + lamp_inside + named("a", jade), {}},
+    };
+    for (const auto& c : cases) EXPECT_EQ(missing_light(scene(c.body)), c.said) << c.what;
+}
+
+TEST_F(MissingLight, OfTheCamerasMedium) {
+    const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                          "<sensor type=\"perspective\"><medium name=\"medium\" "
+                          "type=\"homogeneous\">" +
+                          grey + "</medium></sensor>\n" + named("a", xml::bsdf("diffuse")));
+    EXPECT_EQ(missing_light(s),
+              std::vector<std::string>{
+                  "integrator 'path' does not see the medium around the camera: the picture is as "
+                  "if it were not there; use --integrator volpath"});
+}
+
+TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
+    Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                    named("a", xml::bsdf("null") + matter));
+    s.warnings = {"first"};
+    const std::vector<std::string> all = warnings_of(s);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0], "first");
+    EXPECT_EQ(all[1], missing_light(s)[0]);
+}
+
+TEST_F(MissingLight, MakesNoTruth) {
+    const std::string jade = xml::dielectric(1.5) + matter;
+    EXPECT_EQ(
+        error_of([&] {
+            require_lit_insides(scene(xml::integrator("path") + point_light + named("a", jade)));
+        }),
+        "complete simulation cannot be the reference: point, spot and directional lights do not "
+        "light the inside of 'a' through its smooth boundary, so the truth would lack their light; "
+        "use small area lights in their place, a rough boundary, or another reference "
+        "(--reference)");
+    for (const std::string& lit :
+         {xml::constant_light() + named("a", jade), lamp_inside + named("a", jade),
+          point_light + vacuum_ball, sun + named("a", xml::bsdf("null") + matter)})
+        EXPECT_NO_THROW(require_lit_insides(scene(xml::integrator("path") + lit))) << lit;
+}
+
+}  // namespace
+}  // namespace nacre
