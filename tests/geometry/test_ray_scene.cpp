@@ -27,6 +27,31 @@ std::optional<double> sphere_distance(const Vec3d& o, const Vec3d& d, const Vec3
     return near > 0 ? near : far;
 }
 
+// Mitsuba 3.9.1's answers to rays along the axes (ray_intersect: p, uv, dp_du).
+TEST(RayScene, CubeLaysTexturesAsMitsuba) {
+    RayScene scene;
+    scene.add(share(make_cube()));
+    scene.build();
+    const struct {
+        Vec3f outside;
+        Vec2f uv;
+        Vec3f dpdu;
+    } faces[] = {
+        {{1, 0, 0}, {0.75f, 0.65f}, {0, 1, 0}},   {{-1, 0, 0}, {0.75f, 0.35f}, {0, 1, 0}},
+        {{0, 1, 0}, {0.375f, 0.65f}, {-1, 0, 0}}, {{0, -1, 0}, {0.35f, 0.625f}, {0, 0, 1}},
+        {{0, 0, 1}, {0.75f, 0.625f}, {0, 1, 0}},  {{0, 0, -1}, {0.25f, 0.625f}, {0, -1, 0}}};
+    for (const auto& [outside, uv, dpdu] : faces) {
+        const Vec3f at{0.25f, 0.5f, -0.3f};
+        const Ray ray{at - outside * dot(at, outside) + outside * 5, -outside};
+        const auto hit = scene.intersect(ray);
+        ASSERT_TRUE(hit);
+        const SurfacePoint point = scene.surface_point(ray, *hit);
+        EXPECT_NEAR(point.uv.x, uv.x, 1e-6);
+        EXPECT_NEAR(point.uv.y, uv.y, 1e-6);
+        EXPECT_NEAR(length(point.shading.s - dpdu), 0, 1e-6);
+    }
+}
+
 TEST(RayScene, EmptySceneAnswersQueries) {
     RayScene scene;
     scene.build();

@@ -71,6 +71,7 @@ AnalyticShape::AnalyticShape(const Primitive& primitive) {
             throw InputError("sphere radius is not a positive number; give a radius above zero");
         if (!std::isfinite(o_.x + o_.y + o_.z))
             throw InputError("sphere centre is not finite; give three finite numbers");
+        x_ = sphere->x, y_ = sphere->y, z_ = sphere->z;
         size_ = 2 * radius_;
         area_ = 4 * std::numbers::pi * radius_ * radius_;
         return;
@@ -136,10 +137,15 @@ bool AnalyticShape::crosses_sphere(const Vec3d& o, const Vec3d& d, double tmin, 
     if (near > far) std::swap(near, far);
     const double t = near > tmin ? near : far;
     if (!(t > tmin && t <= tmax)) return false;
-    const Vec3d n = (f + d * t) / radius_;
-    const float v = static_cast<float>(std::atan2(std::hypot(n.x, n.y), n.z) / std::numbers::pi);
-    hit = {t, to_turn(n.y, n.x), v};
+    hit = on_sphere(t, f + d * t);
     return true;
+}
+
+AnalyticHit AnalyticShape::on_sphere(double t, const Vec3d& from_center) const {
+    const Vec3d n = from_center / radius_;
+    const double x = dot(n, x_), y = dot(n, y_), z = dot(n, z_);
+    const double polar = std::atan2(std::hypot(x, y), z);
+    return {t, to_turn(y, x), static_cast<float>(polar / std::numbers::pi)};
 }
 
 bool AnalyticShape::intersect(const Vec3d& world_o, const Vec3d& world_d, double tmin, double tmax,
@@ -176,8 +182,7 @@ AnalyticHit AnalyticShape::closest(const Vec3d& p) const {
     if (kind_ == Kind::Disk) return closest_on_disk(p);
     if (kind_ == Kind::Cylinder) return closest_on_cylinder(p);
     const Vec3d f = p - o_;
-    const auto v = static_cast<float>(std::atan2(std::hypot(f.x, f.y), f.z) / std::numbers::pi);
-    return {std::abs(length(f) - radius_), to_turn(f.y, f.x), v};
+    return on_sphere(std::abs(length(f) - radius_), f);
 }
 
 AnalyticHit AnalyticShape::closest_on_disk(const Vec3d& p) const {
@@ -221,10 +226,10 @@ AnalyticPoint AnalyticShape::at(float u, float v) const {
     point.uv = {u, v};
     if (kind_ == Kind::Sphere) {
         const double phi = u * kTwoPi, theta = v * std::numbers::pi, s = std::sin(theta);
-        point.n = {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
+        point.n = x_ * (s * std::cos(phi)) + y_ * (s * std::sin(phi)) + z_ * std::cos(theta);
         point.p = o_ + point.n * radius_;
         // At the poles the derivative is zero; its direction still has a limit.
-        point.dpdu = Vec3d{-std::sin(phi), std::cos(phi), 0} * (kTwoPi * radius_);
+        point.dpdu = (y_ * std::cos(phi) - x_ * std::sin(phi)) * (kTwoPi * radius_);
     } else if (kind_ == Kind::Disk) {
         const double r = std::hypot(u, v);
         point.p = local(u, v, 0);

@@ -53,6 +53,8 @@ class AnalyticShape {
     Vec3d local(double x, double y, double z) const { return o_ + x_ * x + y_ * y + z_ * z; }
     bool crosses_sphere(const Vec3d& o, const Vec3d& d, double tmin, double tmax,
                         AnalyticHit& hit) const;
+    /// The parameters of a sphere's point, whatever its distance from the centre.
+    AnalyticHit on_sphere(double t, const Vec3d& from_center) const;
     AnalyticHit closest_on_disk(const Vec3d& p) const;
     AnalyticHit closest_on_cylinder(const Vec3d& p) const;
     double stretch(double azimuth) const;

@@ -21,23 +21,28 @@ Mesh make_rectangle() {
 }
 
 Mesh make_cube() {
-    // The rectangle on each side: tangent, bitangent, normal form right-handed frames.
+    // Right-handed frames s, t, normal give the corners; u and v grow along the axes that Mitsuba 3
+    // gives them, which on some sides are mirrored.
     struct Side {
-        Vec3f s, t;
+        Vec3f s, t, u, v;
     };
-    constexpr Side kSides[] = {{{0, 1, 0}, {0, 0, 1}}, {{0, 0, 1}, {0, 1, 0}},
-                               {{0, 0, 1}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 1}},
-                               {{1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {1, 0, 0}}};
+    constexpr Side kSides[] = {{{0, 1, 0}, {0, 0, 1}, {0, 1, 0}, {0, 0, -1}},
+                               {{0, 0, 1}, {0, 1, 0}, {0, 1, 0}, {0, 0, 1}},
+                               {{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 0, -1}},
+                               {{1, 0, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}},
+                               {{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}},
+                               {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}, {1, 0, 0}}};
     Mesh mesh;
     mesh.name = "cube";
     mesh.positions.reserve(25);
-    for (const auto& [s, t] : kSides) {
+    for (const auto& [s, t, u, v] : kSides) {
         const Vec3f n = cross(s, t);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (const Vec2f uv : {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{1, 1}, Vec2f{0, 1}}) {
-            mesh.positions.push_back(n + s * (2 * uv.x - 1) + t * (2 * uv.y - 1));
+        for (const Vec2f at : {Vec2f{-1, -1}, Vec2f{1, -1}, Vec2f{1, 1}, Vec2f{-1, 1}}) {
+            const Point3f p = n + s * at.x + t * at.y;
+            mesh.positions.push_back(p);
             mesh.normals.push_back(n);
-            mesh.uvs.push_back(uv);
+            mesh.uvs.push_back({(dot(p, u) + 1) / 2, (dot(p, v) + 1) / 2});
         }
         mesh.triangles.push_back({first, first + 1, first + 2});
         mesh.triangles.push_back({first + 2, first + 3, first});

@@ -103,6 +103,7 @@ std::uint32_t add_sphere(const SceneNode& node, RayScene& rays, BuildContext&) {
     sphere.center = Point3f(to_world.map_point(node.get_vector("center", {0, 0, 0})));
     sphere.radius = static_cast<float>(get_radius(node) * scale);
     sphere.flip_normals = node.get_bool("flip_normals", false);
+    sphere.x = x / scale, sphere.y = y / scale, sphere.z = z / scale;
     return rays.add(Primitive(sphere));
 }
 
