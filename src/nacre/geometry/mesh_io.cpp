@@ -96,13 +96,14 @@ void trim(std::vector<T>& v, std::size_t extra) {
     v = std::move(exact);
 }
 
-Mesh read(const MeshSource& source, const std::string& extension, int shape_index) {
+Mesh read(const MeshSource& source, const std::string& extension, const MeshOptions& options) {
     if (extension == ".obj") return read_obj(source);
     if (extension == ".ply") return read_ply(source);
     if (extension == ".off") return read_off(source);
     if (extension == ".stl") return read_stl(source);
-    if (extension == ".gltf" || extension == ".glb") return read_gltf(source);
-    if (extension == ".serialized") return read_serialized(source, shape_index);
+    if (extension == ".gltf" || extension == ".glb")
+        return read_gltf(source, options.gltf_material);
+    if (extension == ".serialized") return read_serialized(source, options.shape_index);
     source.fail(
         fmt::format("unknown mesh format '{}'; nacre reads .glb, .gltf, .obj, .off, .ply, "
                     ".serialized and .stl",
@@ -145,7 +146,7 @@ std::shared_ptr<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::
     std::string extension = path.extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    auto mesh = std::make_shared<Mesh>(read(source, extension, options.shape_index));
+    auto mesh = std::make_shared<Mesh>(read(source, extension, options));
     mesh->name = path.filename().string();
     check_values(*mesh, source);
     drop_degenerate(*mesh, source);
