@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/math/error.h"
@@ -164,6 +165,29 @@ TEST(MeshGltf, ContainersThatDoNotFit) {
     chunk[15] = '\x7f';
     EXPECT_TRUE(message(chunk, "a.glb").starts_with("a.glb: is damaged: its first chunk is not "))
         << message(chunk, "a.glb");
+}
+
+TEST(MeshGltf, MaterialsAreListedWithEveryProperty) {
+    const std::string file = tetrahedron_gltf(
+        "",
+        R"(,"extensionsUsed":["KHR_materials_volume"],"materials":[{"name":"wax",)"
+        R"("pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1],"metallicFactor":0},)"
+        R"("alphaMode":"MASK","doubleSided":true,"emissiveFactor":[1,0,0],)"
+        R"("extensions":{"KHR_materials_volume":{"attenuationDistance":2,)"
+        R"("attenuationColor":[1,0.5,0.5]}}},{}])",
+        R"(,"material":0)");
+    const GltfSummary summary = parse_gltf_summary(file, "a.gltf");
+    ASSERT_EQ(summary.materials.size(), 2u);
+    EXPECT_EQ(summary.extensions_used, std::vector<std::string>{"KHR_materials_volume"});
+    EXPECT_EQ(summary.materials[0].name, "wax");
+    EXPECT_TRUE(summary.materials[0].used);
+    EXPECT_EQ(summary.materials[0].properties,
+              (std::vector<std::string>{
+                  "baseColorFactor 1, 0.5, 0.25, 1", "metallicFactor 0", "roughnessFactor 1",
+                  "emissiveFactor 1, 0, 0", "alphaMode MASK at 0.5", "doubleSided",
+                  "KHR_materials_volume: attenuationColor 1, 0.5, 0.5; attenuationDistance 2"}));
+    EXPECT_EQ(summary.materials[1].name, "material 1");
+    EXPECT_FALSE(summary.materials[1].used);
 }
 
 }  // namespace
