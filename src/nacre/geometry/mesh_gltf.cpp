@@ -38,11 +38,8 @@ Transform local_transform(const MeshSource& source, const tinygltf::Node& node, 
 
 class GltfBuilder {
   public:
-    GltfBuilder(const MeshSource& source, const tinygltf::Model& model, std::optional<int> material)
-        : source_(source),
-          model_(model),
-          material_(material),
-          reached_(model.nodes.size(), false) {}
+    GltfBuilder(const MeshSource& source, const tinygltf::Model& model)
+        : source_(source), model_(model), reached_(model.nodes.size(), false) {}
 
     Mesh build() {
         if (model_.nodes.empty()) {
@@ -87,7 +84,6 @@ class GltfBuilder {
 
     void add(const tinygltf::Mesh& mesh, const Transform& to_world) {
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
-            if (material_ && *material_ != std::max(primitive.material, -1)) continue;
             const int mode = primitive.mode == -1 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
             if (mode >= TINYGLTF_MODE_TRIANGLES && mode <= TINYGLTF_MODE_TRIANGLE_FAN)
                 add(primitive, mode, to_world);
@@ -175,7 +171,6 @@ class GltfBuilder {
 
     const MeshSource& source_;
     const tinygltf::Model& model_;
-    std::optional<int> material_;  ///< only primitives of it; -1: those without one
     std::vector<bool> reached_;
     bool any_normals_ = false, any_uvs_ = false;
     Mesh mesh_;
@@ -183,9 +178,9 @@ class GltfBuilder {
 
 }  // namespace
 
-Mesh read_gltf(const MeshSource& source, std::optional<int> material) {
+Mesh read_gltf(const MeshSource& source) {
     const tinygltf::Model model = parse_gltf(source);
-    return GltfBuilder(source, model, material).build();
+    return GltfBuilder(source, model).build();
 }
 
 }  // namespace nacre

@@ -29,8 +29,6 @@ namespace nacre {
 struct MeshOptions {
     /// Which mesh of a .serialized file, from 0.
     int shape_index = 0;
-    /// Of a glTF: only what has this material, counted from 0 (-1: what has none). Unset: all.
-    std::optional<int> gltf_material;
     /// Replace the texture coordinate v by 1 - v. Default as in Mitsuba: true for OBJ, whose v
     /// points up in the picture, false otherwise.
     std::optional<bool> flip_tex_coords;

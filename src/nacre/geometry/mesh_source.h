@@ -25,8 +25,7 @@ Mesh read_obj(const MeshSource& source);
 Mesh read_ply(const MeshSource& source);
 Mesh read_off(const MeshSource& source);
 Mesh read_stl(const MeshSource& source);
-/// `material`: only the primitives with that material, -1 those with none.
-Mesh read_gltf(const MeshSource& source, std::optional<int> material);
+Mesh read_gltf(const MeshSource& source);
 Mesh read_serialized(const MeshSource& source, int shape_index);
 
 /// Whole content of a file; throws InputError.
