@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/verb.h"
+#include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/math/error.h"
@@ -50,6 +51,18 @@ ordered_json describe_image(const std::filesystem::path& file) {
     return json;
 }
 
+/// What else a glTF says; nacre takes its geometry only.
+void add_gltf(const std::filesystem::path& file, ordered_json& json) {
+    const GltfSummary summary = load_gltf_summary(file);
+    ordered_json materials = ordered_json::array();
+    for (const GltfMaterial& m : summary.materials)
+        materials.push_back({{"name", m.name}, {"used", m.used}, {"left_out", m.properties}});
+    if (!materials.empty()) json["materials"] = materials;
+    if (!summary.extensions_used.empty()) json["extensions_used"] = summary.extensions_used;
+    if (!summary.extensions_required.empty())
+        json["extensions_required"] = summary.extensions_required;
+}
+
 ordered_json describe_mesh(const std::filesystem::path& file) {
     const MeshReport r = inspect(*load_mesh(file));
     ordered_json json{{"file", file.string()},
@@ -67,6 +80,7 @@ ordered_json describe_mesh(const std::filesystem::path& file) {
                       {"bounds", {point(r.bounds.lower), point(r.bounds.upper)}}};
     if (r.closed()) json["volume"] = r.volume;
     if (const std::string text = warning(r, true); !text.empty()) json["warning"] = text;
+    if (has_gltf_extension(file)) add_gltf(file, json);
     return json;
 }
 

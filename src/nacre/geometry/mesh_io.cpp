@@ -96,7 +96,7 @@ void trim(std::vector<T>& v, std::size_t extra) {
     v = std::move(exact);
 }
 
-Mesh read(const MeshSource& source, const std::string& extension, int shape_index) {
+Mesh read(const MeshSource& source, const std::string& extension, const MeshOptions& options) {
     // No format knows it, and read byte by byte it looks like an empty file of any of them.
     if (extension != ".serialized" && extension != ".glb" &&
         (source.bytes.starts_with("\xff\xfe") || source.bytes.starts_with("\xfe\xff")))
@@ -105,8 +105,9 @@ Mesh read(const MeshSource& source, const std::string& extension, int shape_inde
     if (extension == ".ply") return read_ply(source);
     if (extension == ".off") return read_off(source);
     if (extension == ".stl") return read_stl(source);
-    if (extension == ".gltf" || extension == ".glb") return read_gltf(source);
-    if (extension == ".serialized") return read_serialized(source, shape_index);
+    if (extension == ".gltf" || extension == ".glb")
+        return read_gltf(source);
+    if (extension == ".serialized") return read_serialized(source, options.shape_index);
     source.fail(
         fmt::format("unknown mesh format '{}'; nacre reads .glb, .gltf, .obj, .off, .ply, "
                     ".serialized and .stl",
@@ -149,7 +150,7 @@ std::shared_ptr<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::
     std::string extension = path.extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    auto mesh = std::make_shared<Mesh>(read(source, extension, options.shape_index));
+    auto mesh = std::make_shared<Mesh>(read(source, extension, options));
     mesh->name = path.filename().string();
     check_values(*mesh, source);
     drop_degenerate(*mesh, source);

@@ -7,7 +7,7 @@
 //   .off          text; also with normals, colours (skipped) and texture coordinates: STCNOFF
 //   .stl          text and binary; vertices at exactly the same place are welded
 //   .gltf .glb    triangles, strips and fans of the default scene, node transforms applied;
-//                 materials and images are not looked at
+//                 sparse accessors too; for materials see gltf_materials.h
 //   .serialized   Mitsuba's compressed meshes, versions 3 and 4
 //
 // Text may begin with a byte order mark and end its lines in LF, CR LF or CR. Polygons are cut into

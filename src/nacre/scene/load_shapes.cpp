@@ -1,7 +1,9 @@
 // Shapes of a scene file, with their material, media and light.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "nacre/geometry/figure.h"
+#include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
@@ -187,6 +189,24 @@ void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const
     if (const std::string message = warning(inspect(*mesh), true); !message.empty()) warn(message);
 }
 
+/// A glTF's own materials are not read: said where the scene gives none instead.
+void warn_about_materials(const SceneNode& node, bool shines, BuildContext& context) {
+    if (shines || context.meshes.contains(&node) || !node.has("filename")) return;
+    std::string names;
+    try {
+        for (const GltfMaterial& m : load_gltf_summary(context.file(node, "filename")).materials)
+            if (m.used)
+                names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", m.name,
+                                     fmt::join(m.properties, ", "));
+    } catch (const InputError&) {
+        return;  // the reader of the geometry says it with its place
+    }
+    if (!names.empty())
+        context.warnings.push_back(
+            fmt::format("{}: the file's own materials are left out: {}; give the shape a <bsdf>",
+                        node.location.str(), names));
+}
+
 }  // namespace
 
 void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
@@ -199,6 +219,9 @@ void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
         emitter->fail(
             fmt::format("{} cannot stand in a shape; only type 'area' can", emitter->describe()));
     const SceneNode* bsdf = only_child(node, "bsdf");
+    if (node.type == "gltf" && !bsdf && !node.child("interior", "medium") &&
+        node.children_of("subsurface").empty())
+        warn_about_materials(node, emitter != nullptr, context);
     shape.material =
         bsdf ? make_material(*bsdf, context) : default_material(node, emitter != nullptr, context);
     if (const SceneNode::Child* medium = node.child("interior", "medium"))

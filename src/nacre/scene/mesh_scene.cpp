@@ -1,10 +1,12 @@
 // A bare mesh as a scene. Lengths are millimetres, y is up, the object stands on y = 0 and is
 // looked at from +z.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/layers/skin.h"
@@ -110,6 +112,21 @@ std::shared_ptr<Mesh> placed(Mesh mesh, double height_mm) {
     return std::make_shared<Mesh>(std::move(mesh));
 }
 
+/// One warning that names every material of a glTF and what of it the picture will not show; empty
+/// if there is none.
+std::string materials_left_out(const std::filesystem::path& file, std::string_view made_of) {
+    if (!has_gltf_extension(file)) return {};
+    std::string list;
+    for (const GltfMaterial& m : load_gltf_summary(file).materials) {
+        if (!m.used) continue;
+        list += fmt::format("{}'{}' ({})", list.empty() ? "" : ", ", m.name,
+                            fmt::join(m.properties, ", "));
+    }
+    if (list.empty()) return {};
+    return fmt::format("{}: its own materials are left out: {}; the object is made of {} instead",
+                       file.string(), list, made_of);
+}
+
 }  // namespace
 
 const MeasuredMedium* translucent_material(std::string_view name) {
@@ -157,7 +174,10 @@ Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions&
     filling(options.material);  // a wrong name is told before a large mesh is read
     std::shared_ptr<Mesh> mesh = load_mesh(file);
     if (mesh->name.empty()) mesh->name = file.filename().string();
-    return make_mesh_scene(std::move(mesh), options);
+    Scene scene = make_mesh_scene(std::move(mesh), options);
+    if (const std::string text = materials_left_out(file, options.material); !text.empty())
+        scene.warnings.push_back(text);
+    return scene;
 }
 
 }  // namespace nacre
