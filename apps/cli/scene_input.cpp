@@ -56,6 +56,9 @@ void add_scene_options(CLI::App& app, SceneInput& input) {
         "of a bare mesh: a measured medium or skin (see 'nacre models'; default: marble)");
     add_number(app, "--height-mm", input.height_mm, {1e-9, 1e9},
                "height of a bare mesh (default: 100)");
+    add_number(app, "--crease-angle", input.crease_angle, {0, 180},
+               "of a bare mesh: edges between triangles whose normals differ by more degrees are "
+               "hard (0: all, 180: none; default: normals as in the file, else 50)");
 }
 
 bool is_scene_file(const SceneInput& input) { return !is_demo(input) && is_scene(input.scene); }
@@ -78,6 +81,7 @@ Scene load(const SceneInput& input, const CLI::App& app,
     if (is_demo(input)) {
         refuse("--material", own);
         refuse("--height-mm", own);
+        refuse("--crease-angle", own);
         refuse("-D", no_names);
         refuse("--mode", "is for scenes of others; the built-in one is RGB");
         if (!size.first) size = demo_size;
@@ -86,6 +90,7 @@ Scene load(const SceneInput& input, const CLI::App& app,
     if (is_scene(file)) {
         refuse("--material", own);
         refuse("--height-mm", own);
+        refuse("--crease-angle", own);
         LoadOptions load;
         load.defines = parse_defines(input.defines);
         load.mode = mode;
@@ -98,6 +103,7 @@ Scene load(const SceneInput& input, const CLI::App& app,
     mesh.mode = mode;
     if (!input.material.empty()) mesh.material = input.material;
     if (app.count("--height-mm")) mesh.height_mm = input.height_mm;
+    mesh.crease_angle = input.crease_angle;
     if (size.first) std::tie(mesh.width, mesh.height) = size;
     return load_mesh_scene(file, mesh);
 }
@@ -109,6 +115,7 @@ std::string arguments_of(const SceneInput& input) {
     if (!input.mode.empty()) text += " --mode " + input.mode;
     if (!input.material.empty()) text += " --material " + shell_word(input.material);
     if (input.height_mm > 0) text += fmt::format(" --height-mm {:g}", input.height_mm);
+    if (input.crease_angle) text += fmt::format(" --crease-angle {:g}", *input.crease_angle);
     return text;
 }
 

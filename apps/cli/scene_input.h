@@ -1,6 +1,7 @@
 #pragma once
 // The scene that `render` and `compare` are given: a scene file, a bare mesh, or the built-in one.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct SceneInput {
     std::vector<std::string> defines;
     std::string size, mode, material;
     double height_mm = 0;
+    std::optional<double> crease_angle;
 };
 
 inline constexpr int most_pixels_a_side = 65536;
 
-/// Declares -D, --size, --mode, --material and --height-mm.
+/// Declares -D, --size, --mode, --material, --height-mm and --crease-angle.
 void add_scene_options(CLI::App& app, SceneInput& input);
 
 /// Loads it; `files` gets what was read for it. Throws InputError for options that do not belong to

@@ -119,20 +119,73 @@ TEST_F(LoadScene, TextureAndTangentsOfASphereTurnWithIt) {
     }
 }
 
-TEST_F(LoadScene, MeshesWithoutNormalsAreSmooth) {
-    // Two faces of a roof; the ridge's normal points straight up.
+TEST_F(LoadScene, MeshesWithoutNormalsAreSmoothButForHardEdges) {
+    // Two faces of a roof, at a right angle; where the ridge is smooth its normal points straight
+    // up.
     write("roof.off", "OFF\n4 2 0\n-1 0 0\n0 1 1\n0 1 -1\n1 0 0\n3 0 1 2\n3 3 2 1\n");
-    for (const bool flat : {false, true}) {
-        const Scene scene = load(fmt::format(
-            R"(<shape type="off"><string name="filename" value="roof.off"/>
-            <boolean name="face_normals" value="{}"/></shape>)",
-            flat));
+    const std::pair<const char*, bool> cases[] = {
+        {"", false},
+        {R"(<float name="crease_angle" value="180"/>)", true},
+        {R"(<float name="crease_angle" value="91"/>)", true},
+        {R"(<float name="crease_angle" value="89"/>)", false},
+        {R"(<float name="crease_angle" value="0"/>)", false},
+        {R"(<float name="crease_angle" value="180"/><boolean name="face_normals" value="true"/>)",
+         false}};
+    for (const auto& [parameters, smooth] : cases) {
+        const Scene scene = load(
+            fmt::format(R"(<shape type="off"><string name="filename" value="roof.off"/>{}</shape>)",
+                        parameters));
         const Ray ray{{-1e-4f, 5, 0}, {0, -1, 0}};
         const auto hit = scene.rays.intersect(ray);
         ASSERT_TRUE(hit);
         const SurfacePoint at = scene.rays.surface_point(ray, *hit);
-        EXPECT_NEAR(at.shading.n.y, flat ? std::sqrt(0.5f) : 1.f, 1e-3f);
+        EXPECT_NEAR(at.shading.n.y, smooth ? 1.f : std::sqrt(0.5f), 1e-3f) << parameters;
         EXPECT_NEAR(at.ng.y, std::sqrt(0.5f), 1e-5f);
+    }
+}
+
+TEST_F(LoadScene, InsideOutIsSaidAsFlipNormalsLeavesIt) {
+    // A tetrahedron with its outside outside, and one turned round.
+    const std::string corners = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+    write("good.off", corners + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    write("turned.off", corners + "3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+    const auto warnings = [&](const std::string& type, const std::string& parameters, bool flip) {
+        const Scene scene =
+            load(fmt::format(R"(<shape type="{}">{}<boolean name="flip_normals" value="{}"/>
+            <bsdf type="dielectric"/><medium name="interior" type="homogeneous"/></shape>)",
+                             type, parameters, flip));
+        std::vector<std::string> found;  // those about the surface
+        for (const std::string& w : scene.warnings)
+            if (w.find("surface") != w.npos) found.push_back(w);
+        return found;
+    };
+    const auto file = [](const char* name) {
+        return fmt::format(R"(<string name="filename" value="{}"/>)", name);
+    };
+    EXPECT_TRUE(warnings("off", file("good.off"), false).empty());
+    EXPECT_TRUE(warnings("off", file("turned.off"), true).empty());
+    const auto turned = warnings("off", file("turned.off"), false);
+    ASSERT_EQ(turned.size(), 1u);
+    EXPECT_TRUE(turned[0].ends_with(
+        "the surface is inside out (its volume is negative); the medium would fill the outside: "
+        "turn the triangles round or set flip_normals"))
+        << turned[0];
+    for (const auto& shape :
+         {std::pair{"off", file("good.off")}, {"cube", std::string()}, {"sphere", std::string()}}) {
+        const auto flipped = warnings(shape.first, shape.second, true);
+        ASSERT_EQ(flipped.size(), 1u) << shape.first;
+        EXPECT_TRUE(
+            flipped[0].ends_with("': flip_normals turns the surface inside out; the medium "
+                                 "would fill the outside: leave it out"))
+            << flipped[0];
+    }
+    for (const char* open : {"disk", "cylinder"}) {
+        const auto found = warnings(open, "", false);
+        ASSERT_EQ(found.size(), 1u) << open;
+        EXPECT_TRUE(
+            found[0].ends_with("': the surface is open by itself; light in the medium "
+                               "inside gets lost unless other shapes close it"))
+            << found[0];
     }
 }
 

@@ -128,25 +128,4 @@ Mesh make_torus(float major, float minor, int around, int across) {
     return mesh;
 }
 
-void compute_normals(Mesh& mesh) {
-    mesh.normals.assign(mesh.positions.size(), Vec3f{});
-    for (const Mesh::Triangle& t : mesh.triangles) {
-        const Vec3d p[3] = {Vec3d(mesh.positions[t[0]]), Vec3d(mesh.positions[t[1]]),
-                            Vec3d(mesh.positions[t[2]])};
-        const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
-        const double len = length(n);
-        if (!(len > 0)) continue;
-        for (int i = 0; i < 3; ++i) {
-            // The angle between two sides by its tangent, accurate for slivers: |cross| is the
-            // same at every corner.
-            const double angle = std::atan2(len, dot(p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]));
-            mesh.normals[t[i]] += Vec3f(n * (angle / len));
-        }
-    }
-    for (Vec3f& n : mesh.normals) {
-        const float len = length(n);
-        n = len > 0.f ? n * (1.f / len) : Vec3f{0, 0, 1};
-    }
-}
-
 }  // namespace nacre

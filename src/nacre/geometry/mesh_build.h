@@ -24,4 +24,16 @@ Mesh make_torus(float major, float minor, int around, int across);
 /// triangle of nonzero area get +z.
 void compute_normals(Mesh& mesh);
 
+/// Between triangles whose normals differ by more than this an edge is hard, degrees. Above the
+/// 41.8 of an icosahedron and the 45 of a prism of eight sides, which stand for something round;
+/// below the 60 of a prism of six, which stands for itself.
+inline constexpr double default_crease_angle = 50;
+
+/// The same, but not across edges at which neighbouring normals differ by more than
+/// `crease_angle` degrees (0: none is smooth, 180: all are): a vertex is split into one for each of
+/// the groups of triangles around it that hang together by smoother edges. A mesh without such an
+/// edge keeps its vertices. Triangles that meet in threes at an edge, or face opposite ways there,
+/// do not hang together.
+void compute_normals(Mesh& mesh, double crease_angle);
+
 }  // namespace nacre

@@ -41,6 +41,9 @@ struct MeshSceneOptions {
     std::optional<double> height_mm = {};  ///< how tall the object is; unset: 100 mm
     int width = 512, height = 512;
     std::optional<ColorMode> mode = {};
+    /// Edges between triangles whose normals differ by more are hard, degrees from 0 to 180; unset:
+    /// normals as in the file, else default_crease_angle (mesh_build.h).
+    std::optional<double> crease_angle = {};
 };
 /// A mesh file as a scene: the object in a translucent medium behind a smooth boundary, standing on
 /// a floor, camera and lights chosen to frame it (warm key light, strong light from behind for

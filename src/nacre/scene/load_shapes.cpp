@@ -27,14 +27,22 @@ void apply(const Transform& to_world, Mesh& mesh) {
 std::uint32_t add_mesh(const SceneNode& node, std::shared_ptr<Mesh> mesh, RayScene& rays) {
     const bool face_normals = node.get_bool("face_normals", false);
     const bool flip_normals = node.get_bool("flip_normals", false);
-    // As Mitsuba: a mesh without normals is smooth unless its faces are asked for.
-    if (!face_normals && mesh->normals.empty()) compute_normals(*mesh);
     return rays.add(std::move(mesh), face_normals, flip_normals);
+}
+
+/// A mesh without normals is smooth, but for its hard edges, unless its faces are asked for. An
+/// angle that is given replaces the normals of the file.
+std::uint32_t add_read(const SceneNode& node, std::shared_ptr<Mesh> mesh, RayScene& rays) {
+    const bool given = node.has("crease_angle");
+    const double angle = node.get_float_in("crease_angle", default_crease_angle, 0, 180);
+    if (!node.get_bool("face_normals", false) && (given || mesh->normals.empty()))
+        compute_normals(*mesh, angle);
+    return add_mesh(node, std::move(mesh), rays);
 }
 
 std::uint32_t add_mesh_file(const SceneNode& node, RayScene& rays, BuildContext& context) {
     const auto in_memory = context.meshes.find(&node);
-    if (in_memory != context.meshes.end()) return add_mesh(node, in_memory->second, rays);
+    if (in_memory != context.meshes.end()) return add_read(node, in_memory->second, rays);
     MeshOptions options;
     options.to_world = node.get_transform("to_world");
     if (node.type == "serialized") {
@@ -53,7 +61,7 @@ std::uint32_t add_mesh_file(const SceneNode& node, RayScene& rays, BuildContext&
     if (extension != "." + node.type && !gltf)
         node.fail_at("filename", fmt::format("{} reads .{} files, not '{}'", node.describe(),
                                              node.type, file.filename().string()));
-    return add_mesh(node, load_mesh(file, options), rays);
+    return add_read(node, load_mesh(file, options), rays);
 }
 
 std::uint32_t add_built(const SceneNode& node, Mesh mesh, RayScene& rays) {
@@ -185,8 +193,26 @@ void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const
     };
     if (!(shape.material->flags() & (transmits | has_null)))
         warn("no light passes its material, so the medium inside cannot be seen");
-    if (!mesh) return;
-    if (const std::string message = warning(inspect(*mesh), true); !message.empty()) warn(message);
+    const bool flipped = node.get_bool("flip_normals", false);
+    if (!mesh) {
+        if (node.type != "sphere")
+            warn(
+                "the surface is open by itself; light in the medium inside gets lost unless other "
+                "shapes close it");
+        else if (flipped)
+            warn(
+                "flip_normals turns the surface inside out; the medium would fill the outside: "
+                "leave it out");
+        return;
+    }
+    MeshReport report = inspect(*mesh);
+    if (flipped) report.volume = -report.volume;
+    if (flipped && report.inside_out())
+        warn(
+            "flip_normals turns the surface inside out; the medium would fill the outside: leave "
+            "it out");
+    else if (const std::string message = warning(report, true); !message.empty())
+        warn(message);
 }
 
 /// A glTF's own materials are not read: said where the scene gives none instead.

@@ -163,6 +163,7 @@ Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& option
     add(root, floor_under(stage, height));
     auto shape = translucent_shape(inside);
     if (!object->name.empty()) shape->id = object->name;
+    if (options.crease_angle) set(shape, "crease_angle", "float", *options.crease_angle);
     add(root, shape);
 
     BuildContext context;
