@@ -109,8 +109,8 @@ TEST_F(CompareVerb, ADamagedReferenceIsSetAside) {
         const Outcome r = nacre(command);
         EXPECT_EQ(r.code, 0) << r.err;
         EXPECT_EQ(r.err.find("nacre: warning: the kept reference is damaged ("), 0u) << r.err;
-        EXPECT_TRUE(r.err.ends_with("kept/" + file.filename().string() +
-                                    ".damaged and made anew\n"))
+        EXPECT_TRUE(
+            r.err.ends_with("kept/" + file.filename().string() + ".damaged and made anew\n"))
             << r.err;
         EXPECT_EQ(read(file.string() + ".damaged"), bytes);
         EXPECT_EQ(nacre(command).err, "");

@@ -51,8 +51,7 @@ const std::vector<std::string> long_precomputation = {
 TEST_F(Interrupt, EverySignalEndsPrecomputation) {
     const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     pid_t children[3];
-    for (int i = 0; i < 3; ++i)
-        children[i] = start(long_precomputation, fmt::format("log{}", i));
+    for (int i = 0; i < 3; ++i) children[i] = start(long_precomputation, fmt::format("log{}", i));
     for (int i = 0; i < 3; ++i) {
         const std::string log = fmt::format("log{}", i);
         wait_for(log, ": ");
@@ -61,9 +60,11 @@ TEST_F(Interrupt, EverySignalEndsPrecomputation) {
         waitpid(children[i], &status, 0);
         ASSERT_TRUE(WIFEXITED(status)) << signals[i];
         EXPECT_EQ(WEXITSTATUS(status), 130) << signals[i];
-        EXPECT_TRUE(read(folder_ / log).ends_with(
-            "nacre: interrupted during precomputation: nothing was rendered, nothing was "
-            "written\n"))
+        EXPECT_TRUE(
+            read(folder_ / log)
+                .ends_with(
+                    "nacre: interrupted during precomputation: nothing was rendered, nothing was "
+                    "written\n"))
             << read(folder_ / log);
         std::filesystem::remove(folder_ / log);
     }
@@ -96,20 +97,24 @@ TEST_F(Interrupt, AHangupSavesWhatThereIsBesideWhatWasSavedBefore) {
     EXPECT_EQ(read_image(folder_ / "long.partial-2.exr").metadata.at("nacre.complete"), "no");
 }
 
-/// Marble's densest band, blue: sigma_t' = 3.0071 mm^-1; 2 / sqrt(3) 6e6 mm^2 of it are 6.26e7 points,
-/// and the root of 6.26e7 / 1.25e7 is 2.24.
+/// Marble's densest band, blue: sigma_t' = 3.0071 mm^-1; 2 / sqrt(3) 6e6 mm^2 of it are 6.26e7
+/// points, and the root of 6.26e7 / 1.25e7 is 2.24.
 TEST_F(Interrupt, AdviceOnTheSpacingIsInItsUnit) {
     const Outcome r = nacre("render cube.obj --technique two_pass --height-mm 1000 -o o.exr");
     EXPECT_EQ(r.code, 2);
-    EXPECT_EQ(r.err, "nacre: spacing = 1 transport mean free paths takes 6.26e+07 surface points; with points "
-              "= elimination the limit is 12500000: set spacing to at least 2.24, or to 7.09, which "
-              "takes a tenth of the time and memory\n");
+    EXPECT_EQ(
+        r.err,
+        "nacre: spacing = 1 transport mean free paths takes 6.26e+07 surface points; with points "
+        "= elimination the limit is 12500000: set spacing to at least 2.24, or to 7.09, which "
+        "takes a tenth of the time and memory\n");
     const Outcome large = nacre("render cube.obj --technique two_pass --height-mm 1e6 -o o.exr");
     EXPECT_EQ(large.code, 2);
-    EXPECT_EQ(large.err, "nacre: spacing = 1 transport mean free paths takes 6.26e+13 surface points; with points "
-              "= elimination the limit is 12500000: spacing would have to be 2240, and 100 is the "
-              "most: the object is too large for its medium; make it smaller by a factor of 22.5, "
-              "or choose another technique\n");
+    EXPECT_EQ(
+        large.err,
+        "nacre: spacing = 1 transport mean free paths takes 6.26e+13 surface points; with points "
+        "= elimination the limit is 12500000: spacing would have to be 2240, and 100 is the "
+        "most: the object is too large for its medium; make it smaller by a factor of 22.5, "
+        "or choose another technique\n");
 }
 
 TEST_F(Interrupt, WhatATechniqueDoesNotHaveIsRefused) {

@@ -25,9 +25,8 @@ TEST(Work, StopsByTheFlagOrTheClock) {
 
 TEST(Work, PhasesTellTheirBeginningAndNotEveryPart) {
     std::vector<std::pair<std::string, double>> told;
-    const Work work(nullptr, Clock::time_point::max(), [&](std::string_view phase, double share) {
-        told.emplace_back(phase, share);
-    });
+    const Work work(nullptr, Clock::time_point::max(),
+                    [&](std::string_view phase, double share) { told.emplace_back(phase, share); });
     WorkPhase first(work, "first", 1000);
     for (int i = 0; i < 1000; ++i) first.advance();
     WorkPhase second(work, "second", 4);

@@ -225,10 +225,10 @@ std::vector<std::string> advise(const std::vector<SuiteResult>& results,
         fmt::format("Over {} {}", results.size(), results.size() == 1 ? "case" : "cases");
     std::vector<std::string> sentences;
     const auto words = [](const Summary& s) {
-        return fmt::format("{}: {}, first picture after {}", s.name,
-                           s.error > 0 ? fmt::format("{:.2g} %", 100 * s.error)
-                                       : "no error told from noise",
-                           time_in_words(s.seconds));
+        return fmt::format(
+            "{}: {}, first picture after {}", s.name,
+            s.error > 0 ? fmt::format("{:.2g} %", 100 * s.error) : "no error told from noise",
+            time_in_words(s.seconds));
     };
     if (all.empty()) {
         sentences.push_back(over + " no technique beside the reference has numbers in every case.");

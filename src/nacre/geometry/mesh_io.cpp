@@ -105,8 +105,7 @@ Mesh read(const MeshSource& source, const std::string& extension, const MeshOpti
     if (extension == ".ply") return read_ply(source);
     if (extension == ".off") return read_off(source);
     if (extension == ".stl") return read_stl(source);
-    if (extension == ".gltf" || extension == ".glb")
-        return read_gltf(source);
+    if (extension == ".gltf" || extension == ".glb") return read_gltf(source);
     if (extension == ".serialized") return read_serialized(source, options.shape_index);
     source.fail(
         fmt::format("unknown mesh format '{}'; nacre reads .glb, .gltf, .obj, .off, .ply, "

@@ -91,26 +91,26 @@ void assign_voronoi_shares(const Mesh& mesh, SurfacePointSet& points, int sample
         return std::array{0.5, multiple - std::floor(multiple)};
     };
     const auto give_to_owner = [&](std::size_t, const SurfacePlace& place) {
-            const Mesh::Triangle& t = mesh.triangles[place.triangle];
-            const Vec3d a(mesh.positions[t[0]]);
-            const SheetPoint sample = {Point3f(a + (Vec3d(mesh.positions[t[1]]) - a) * place.u +
-                                               (Vec3d(mesh.positions[t[2]]) - a) * place.v),
-                                       Vec3f(geometric_normal(mesh, place.triangle)),
-                                       component[place.triangle], 0};
-            std::uint32_t owner = ~0u;
-            for (int g = 0; g < 2 && owner == ~0u; ++g) {
-                float nearest = radii[g] * radii[g];
-                grids[g].around(sample.p).for_each([&](std::uint32_t slot) {
-                    const SheetPoint& point = grids[g].points()[slot];
-                    const float distance = length_squared(point.p - sample.p);
-                    if (distance < nearest && same_sheet(point, sample))
-                        nearest = distance, owner = point.index;
-                });
-            }
-            if (owner == ~0u)
-                ++without_owner;
-            else
-                owned[owner].fetch_add(1, std::memory_order_relaxed);
+        const Mesh::Triangle& t = mesh.triangles[place.triangle];
+        const Vec3d a(mesh.positions[t[0]]);
+        const SheetPoint sample = {Point3f(a + (Vec3d(mesh.positions[t[1]]) - a) * place.u +
+                                           (Vec3d(mesh.positions[t[2]]) - a) * place.v),
+                                   Vec3f(geometric_normal(mesh, place.triangle)),
+                                   component[place.triangle], 0};
+        std::uint32_t owner = ~0u;
+        for (int g = 0; g < 2 && owner == ~0u; ++g) {
+            float nearest = radii[g] * radii[g];
+            grids[g].around(sample.p).for_each([&](std::uint32_t slot) {
+                const SheetPoint& point = grids[g].points()[slot];
+                const float distance = length_squared(point.p - sample.p);
+                if (distance < nearest && same_sheet(point, sample))
+                    nearest = distance, owner = point.index;
+            });
+        }
+        if (owner == ~0u)
+            ++without_owner;
+        else
+            owned[owner].fetch_add(1, std::memory_order_relaxed);
     };
     for_each_strip(sampler, samples, square, give_to_owner, "shares of the surface", work);
     const double one = sampler.area() / double(samples);

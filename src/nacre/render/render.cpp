@@ -10,6 +10,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "nacre/math/error.h"
@@ -75,8 +76,9 @@ Clock::time_point deadline_of(const RenderOptions& options) {
 
 class RenderJob {
   public:
+    /// Without a deadline the timeout counts from the start of `run`.
     RenderJob(const Scene& scene, const Integrator& integrator, const RenderOptions& options,
-              Clock::time_point deadline)
+              std::optional<Clock::time_point> deadline = {})
         : scene_(scene),
           integrator_(integrator),
           options_(options),
@@ -97,6 +99,7 @@ class RenderJob {
     }
 
     RenderResult run() {
+        if (!deadline_) deadline_ = deadline_of(options_);
         const double cpu = process_cpu_seconds();
         const int columns = (film_.width() + tile_side - 1) / tile_side;
         const int rows = (film_.height() + tile_side - 1) / tile_side;
@@ -125,7 +128,7 @@ class RenderJob {
   private:
     bool interrupted() {
         if (options_.stop && options_.stop->load(std::memory_order_relaxed)) stopped_ = true;
-        if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) stopped_ = true;
+        if (*deadline_ != Clock::time_point::max() && Clock::now() >= *deadline_) stopped_ = true;
         return stopped_;
     }
 
@@ -202,7 +205,7 @@ class RenderJob {
     const Scene& scene_;
     const Integrator& integrator_;
     const RenderOptions& options_;
-    const Clock::time_point deadline_;
+    std::optional<Clock::time_point> deadline_;  ///< set while it runs
     Film film_;
     const Filter filter_;
     const Sampler sampler_;
@@ -244,9 +247,8 @@ RenderResult with_threads(int threads, const std::function<RenderResult()>& work
 
 RenderResult render(const Scene& scene, const Integrator& integrator,
                     const RenderOptions& options) {
-    return with_threads(options.threads, [&] {
-        return RenderJob(scene, integrator, options, deadline_of(options)).run();
-    });
+    return with_threads(options.threads,
+                        [&] { return RenderJob(scene, integrator, options).run(); });
 }
 
 RenderResult render_with(const Scene& scene, MakeIntegrator make, const RenderOptions& options) {

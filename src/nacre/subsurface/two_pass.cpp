@@ -146,7 +146,8 @@ void check_spacing(const SubsurfaceSettings& settings, double area, double free_
     const auto least = [&](double limit) {
         return std::sqrt(2. / std::numbers::sqrt3 * area / limit) / free_path;
     };
-    const double all = double(kMaxSurfacePoints), eliminated = std::floor(all / elimination_candidates);
+    const double all = double(kMaxSurfacePoints),
+                 eliminated = std::floor(all / elimination_candidates);
     const bool elimination = settings.points == "elimination";
     const double limit = elimination ? eliminated : all;
     if (settings.spacing >= least(limit)) return;

@@ -34,8 +34,8 @@ class TwoPass final : public Translucency {
     std::shared_ptr<const SingleScatteringTerm> single_;
 };
 
-/// Throws InputError if spacing and points of the settings make more points of a surface of that area
-/// than there may be; what it advises is in the unit and within the range of the option.
+/// Throws InputError if spacing and points of the settings make more points of a surface of that
+/// area than there may be; what it advises is in the unit and within the range of the option.
 /// `free_path` is the transport mean free path of the densest band.
 void check_spacing(const SubsurfaceSettings& settings, double area, double free_path);
 
