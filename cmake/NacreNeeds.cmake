@@ -5,7 +5,7 @@ set(NACRE_MISSING "")
 # Quiet: Debian's Imath reports a library of another package (its Python module) as missing.
 set(nacre_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)
-foreach(need Threads "TBB CONFIG" fmt "embree 3" "OpenEXR CONFIG" pugixml ZLIB nlohmann_json tinyobjloader TinyGLTF
+foreach(need Threads "TBB CONFIG" fmt "embree 3" "OpenEXR CONFIG" pugixml ZLIB nlohmann_json TinyGLTF
              Ceres)
     string(REPLACE " " ";" need "${need}")
     find_package(${need} QUIET)

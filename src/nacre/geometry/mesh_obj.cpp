@@ -1,133 +1,102 @@
-// Wavefront OBJ through tinyobjloader's callbacks: its ordinary interface keeps several copies of
-// all faces, which a mesh of ten million triangles does not bear.
+// Wavefront OBJ (Wavefront Technologies 1992, The Advanced Visualizer, appendix B1): vertices,
+// texture coordinates, normals and faces, one pass over the text and no copy of it; a mesh of ten
+// million triangles bears little more. Materials, groups, points, lines and curves are passed over.
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
-#include <istream>
-#include <limits>
-#include <streambuf>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
 
+#include "nacre/geometry/mesh_polygon.h"
 #include "nacre/geometry/mesh_source.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
-
-// Hands the file to the parser line by line, so that callbacks know the line they are called for;
-// joins lines that end in a backslash; refuses words that are no numbers, which the parser would
-// silently read as zero.
-class ObjLines : public std::streambuf {
+// Statements and their words. Statements of numbers go on behind a backslash at the end of the
+// line; names and comments end with their line, as paths of Windows may end in a backslash.
+class ObjLines {
   public:
-    explicit ObjLines(const MeshSource& source) : source_(source) {}
-    std::size_t line() const { return line_; }
+    explicit ObjLines(const MeshSource& source) : source_(source), text_(source, 0, 0) {}
 
-  protected:
-    int_type underflow() override {
-        if (offset_ >= source_.bytes.size()) return traits_type::eof();
-        text_.clear();
-        line_ = ++lines_read_;
-        append_line();
-        while (ends_in_backslash() && offset_ < source_.bytes.size()) {
-            text_.back() = ' ';
-            ++lines_read_;
-            append_line();
+    /// Goes to the next statement and hands over its keyword; false at the end of the file.
+    bool next(std::string_view& keyword) {
+        continues_ = false;
+        if (!text_.next_line()) return false;
+        keyword = text_.word();
+        return true;
+    }
+    std::size_t line() const { return text_.line(); }
+
+    std::string_view word() {
+        for (;;) {
+            if (std::exchange(continues_, false) && !text_.following_line()) return {};
+            std::string_view word = text_.word();
+            if (!word.ends_with('\\') || !text_.line_done()) return word;
+            continues_ = true;
+            word.remove_suffix(1);
+            if (!word.empty()) return word;
         }
-        check();
-        text_ += '\n';
-        setg(text_.data(), text_.data(), text_.data() + text_.size());
-        return traits_type::to_int_type(text_[0]);
+    }
+
+    /// `least` to `most` numbers, which all must be finite; what follows them is passed over.
+    template <std::size_t N>
+    std::array<float, N> numbers(std::string_view keyword, std::size_t least) {
+        std::array<float, N> values{};
+        for (std::size_t i = 0; i < N; ++i) {
+            const std::string_view word = this->word();
+            if (word.empty()) {
+                if (i >= least) break;
+                source_.fail(line(),
+                             fmt::format("'{}' with {} numbers; it needs {}", keyword, i, least));
+            }
+            const auto value = parse_number(word);
+            if (!value || !std::isfinite(*value))
+                source_.fail(line(), fmt::format("'{}' is not a finite number", word));
+            values[i] = static_cast<float>(*value);
+        }
+        return values;
     }
 
   private:
-    void append_line() {
-        const std::string_view bytes = source_.bytes;
-        const std::size_t end = std::min(bytes.find('\n', offset_), bytes.size());
-        text_ += bytes.substr(offset_, end - offset_);
-        if (text_.ends_with('\r')) text_.pop_back();
-        offset_ = std::min(end + 1, bytes.size());
-    }
-    bool ends_in_backslash() const { return text_.ends_with('\\'); }
-
-    void check() const {
-        std::string_view rest = text_;
-        const auto word = [&] {
-            rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
-            const std::string_view found = rest.substr(0, rest.find_first_of(kBlank));
-            rest.remove_prefix(found.size());
-            return found;
-        };
-        const std::string_view keyword = word();
-        // Texture coordinates may be one number only.
-        const int needed = keyword == "v" || keyword == "vn" ? 3 : keyword == "vt" ? 1 : 0;
-        for (int i = 0; i < needed; ++i) {
-            const std::string_view number = word();
-            if (number.empty())
-                source_.fail(line_,
-                             fmt::format("'{}' with {} numbers; it needs {}", keyword, i, needed));
-            if (number.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
-                source_.fail(line_, fmt::format("'{}' is not a finite number", number));
-        }
-        if (keyword != "f") return;
-        for (std::string_view corner = word(); !corner.empty(); corner = word())
-            if (corner.find_first_not_of("0123456789-+/") != std::string_view::npos)
-                source_.fail(line_, fmt::format("'{}' is not a corner; write v, v/vt, v//vn or "
-                                                "v/vt/vn",
-                                                corner));
-    }
-
     const MeshSource& source_;
-    std::string text_;
-    std::size_t offset_ = 0, lines_read_ = 0, line_ = 0;
+    TextLines text_;
+    bool continues_ = false;
 };
 
-// Takes the parser's callbacks. Corners become vertices of the mesh: one for each position while
-// no face names texture coordinates or normals, later one for each combination (v, vt, vn).
-class ObjBuilder {
+// Makes the mesh. Corners become vertices: one for each position while no face names texture
+// coordinates or normals, later one for each combination (v, vt, vn).
+class ObjReader {
   public:
-    ObjBuilder(const MeshSource& source, const ObjLines& lines) : source_(source), lines_(lines) {}
+    explicit ObjReader(const MeshSource& source) : source_(source), lines_(source) {}
 
-    void face(const tinyobj::index_t* raw, int count) {
-        corners_.clear();
-        for (int i = 0; i < count; ++i) {
-            const Corner c{resolve(raw[i].vertex_index, positions.size(), vertex_),
-                           resolve(raw[i].texcoord_index, uvs.size(), uv_),
-                           resolve(raw[i].normal_index, normals.size(), normal_)};
-            if (c.v == 0)
-                source_.fail(lines_.line(), "face names vertex 0; OBJ counts vertices from 1");
-            if (!combined_ && (c.vt || c.vn)) combine();
-            corners_.push_back(combined_ ? vertex_of(c) : c.v - 1);
+    Mesh read() {
+        std::string_view keyword;
+        while (lines_.next(keyword)) {
+            if (keyword == "v") {
+                const auto [x, y, z] = lines_.numbers<3>(keyword, 3);
+                positions_.emplace_back(x, y, z);
+            } else if (keyword == "vn") {
+                const auto [x, y, z] = lines_.numbers<3>(keyword, 3);
+                normals_.emplace_back(x, y, z);
+            } else if (keyword == "vt") {  // may be one number only
+                const auto [u, v] = lines_.numbers<2>(keyword, 1);
+                uvs_.push_back({u, v});
+            } else if (keyword == "f") {
+                face();
+            } else if (keyword == "surf" || keyword == "call") {
+                source_.fail(lines_.line(),
+                             keyword == "surf"
+                                 ? "free-form surfaces are not read; convert them to polygons "
+                                   "before the export"
+                                 : "'call' takes in another file, which is not done; export the "
+                                   "mesh into one file");
+            }
         }
-        add_polygon(mesh_, corners_);
-        ++faces_;
+        return finish();
     }
-
-    Mesh finish() {
-        check(vertex_, positions.size(), "vertex", "vertices");
-        check(uv_, uvs.size(), "texture coordinate", "texture coordinates");
-        check(normal_, normals.size(), "normal", "normals");
-        if (!combined_) {
-            mesh_.positions = std::move(positions);
-            return std::move(mesh_);
-        }
-        first_of_ = {};
-        const bool any_uv = uv_.largest > 0, any_normal = normal_.largest > 0;
-        mesh_.positions.reserve(vertices_.size() + 1);
-        if (any_uv) mesh_.uvs.reserve(vertices_.size());
-        if (any_normal) mesh_.normals.reserve(vertices_.size());
-        for (const Entry& e : vertices_) {
-            mesh_.positions.push_back(positions[e.corner.v - 1]);
-            // Missing normals stay zero and are computed later.
-            if (any_uv) mesh_.uvs.push_back(e.corner.vt ? uvs[e.corner.vt - 1] : Vec2f{});
-            if (any_normal)
-                mesh_.normals.push_back(e.corner.vn ? normals[e.corner.vn - 1] : Vec3f{});
-        }
-        return std::move(mesh_);
-    }
-
-    std::vector<Point3f> positions;
-    std::vector<Vec3f> normals;
-    std::vector<Vec2f> uvs;
 
   private:
     struct Corner {
@@ -145,14 +114,56 @@ class ObjBuilder {
         std::size_t line = 0;
     };
 
-    // tinyobjloader hands over the numbers of the file: from 1, or negative to count backwards.
-    std::uint32_t resolve(int index, std::size_t count, Largest& largest) {
-        const std::int64_t absolute = index < 0 ? std::int64_t(count) + index + 1 : index;
+    void face() {
+        corners_.clear();
+        for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) {
+            const Corner c = corner(word);
+            if (!combined_ && (c.vt || c.vn)) combine();
+            corners_.push_back(combined_ ? vertex_of(c) : c.v - 1);
+        }
+        polygons_.add(mesh_, corners_);
+        ++faces_;
+    }
+
+    // v, v/vt, v//vn or v/vt/vn; what is left empty, as in v// and v/vt/, is absent.
+    Corner corner(std::string_view word) {
+        std::string_view parts[3], rest = word;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t slash = i < 2 ? rest.find('/') : rest.npos;
+            parts[i] = rest.substr(0, slash);
+            rest.remove_prefix(std::min(parts[i].size() + 1, rest.size()));
+        }
+        if (parts[0].empty()) not_a_corner(word);
+        const Corner c{index(word, parts[0], positions_.size(), vertex_),
+                       index(word, parts[1], uvs_.size(), uv_),
+                       index(word, parts[2], normals_.size(), normal_)};
+        if (c.v == 0)
+            source_.fail(lines_.line(), "face names vertex 0; OBJ counts vertices from 1");
+        return c;
+    }
+
+    [[noreturn]] void not_a_corner(std::string_view word) const {
+        source_.fail(lines_.line(),
+                     fmt::format("'{}' is not a corner; write v, v/vt, v//vn or v/vt/vn", word));
+    }
+
+    // Numbers of the file run from 1, or are negative and count backwards.
+    std::uint32_t index(std::string_view word, std::string_view part, std::size_t count,
+                        Largest& largest) {
+        if (part.empty()) return 0;
+        if (part.front() == '+') part.remove_prefix(1);
+        std::int64_t number = 0;
+        const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+        if (stop != part.data() + part.size() || error == std::errc::invalid_argument)
+            not_a_corner(word);
+        const std::int64_t absolute =
+            number < 0 ? static_cast<std::int64_t>(count) + number + 1 : number;
         // No file of n bytes holds n vertices: this bounds what an index can make us allocate.
-        if ((index < 0 && absolute < 1) || absolute > std::int64_t(source_.bytes.size()))
+        const auto most = std::min<std::int64_t>(source_.bytes.size(), 0xfffffffe);
+        if (error != std::errc{} || (number < 0 && absolute < 1) || absolute > most)
             source_.fail(lines_.line(), fmt::format("face {} (counted from 1) has index {}, but {} "
                                                     "are defined before it",
-                                                    faces_ + 1, index, count));
+                                                    faces_ + 1, part, count));
         if (absolute > largest.largest)
             largest = {static_cast<std::uint32_t>(absolute), lines_.line()};
         return static_cast<std::uint32_t>(absolute);
@@ -164,9 +175,36 @@ class ObjBuilder {
                                              l.largest, count, many));
     }
 
+    Mesh finish() {
+        check(vertex_, positions_.size(), "vertex", "vertices");
+        check(uv_, uvs_.size(), "texture coordinate", "texture coordinates");
+        check(normal_, normals_.size(), "normal", "normals");
+        if (combined_)
+            gather();
+        else
+            mesh_.positions = std::move(positions_);
+        polygons_.cut_concave(mesh_);
+        return std::move(mesh_);
+    }
+
+    void gather() {
+        first_of_ = {};
+        const bool any_uv = uv_.largest > 0, any_normal = normal_.largest > 0;
+        mesh_.positions.reserve(vertices_.size() + 1);
+        if (any_uv) mesh_.uvs.reserve(vertices_.size());
+        if (any_normal) mesh_.normals.reserve(vertices_.size());
+        for (const Entry& e : vertices_) {
+            mesh_.positions.push_back(positions_[e.corner.v - 1]);
+            // Missing normals stay zero and are computed later.
+            if (any_uv) mesh_.uvs.push_back(e.corner.vt ? uvs_[e.corner.vt - 1] : Vec2f{});
+            if (any_normal)
+                mesh_.normals.push_back(e.corner.vn ? normals_[e.corner.vn - 1] : Vec3f{});
+        }
+    }
+
     std::uint32_t vertex_of(const Corner& corner) {
         if (corner.v >= first_of_.size()) {
-            first_of_.reserve(positions.size() + 1);
+            first_of_.reserve(positions_.size() + 1);
             first_of_.resize(corner.v + 1, 0);
         }
         std::uint32_t* link = &first_of_[corner.v];
@@ -187,11 +225,15 @@ class ObjBuilder {
     }
 
     const MeshSource& source_;
-    const ObjLines& lines_;
+    ObjLines lines_;
     Mesh mesh_;
+    Polygons polygons_;
     bool combined_ = false;
     std::size_t faces_ = 0;
     Largest vertex_, uv_, normal_;
+    std::vector<Point3f> positions_;
+    std::vector<Vec3f> normals_;
+    std::vector<Vec2f> uvs_;
     std::vector<std::uint32_t> corners_;
     std::vector<std::uint32_t> first_of_;  ///< by position from 1: first vertex + 1, or 0
     std::vector<Entry> vertices_;
@@ -199,26 +241,6 @@ class ObjBuilder {
 
 }  // namespace
 
-Mesh read_obj(const MeshSource& source) {
-    ObjLines lines(source);
-    ObjBuilder builder(source, lines);
-    tinyobj::callback_t callbacks;
-    callbacks.vertex_cb = [](void* to, float x, float y, float z, float) {
-        static_cast<ObjBuilder*>(to)->positions.emplace_back(x, y, z);
-    };
-    callbacks.normal_cb = [](void* to, float x, float y, float z) {
-        static_cast<ObjBuilder*>(to)->normals.emplace_back(x, y, z);
-    };
-    callbacks.texcoord_cb = [](void* to, float u, float v, float) {
-        static_cast<ObjBuilder*>(to)->uvs.push_back({u, v});
-    };
-    callbacks.index_cb = [](void* to, tinyobj::index_t* corners, int count) {
-        static_cast<ObjBuilder*>(to)->face(corners, count);
-    };
-    std::istream stream(&lines);
-    stream.exceptions(std::ios::badbit);  // lets our own exceptions through
-    tinyobj::LoadObjWithCallback(stream, callbacks, &builder);
-    return builder.finish();
-}
+Mesh read_obj(const MeshSource& source) { return ObjReader(source).read(); }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "nacre/geometry/mesh_io.h"
+#include "nacre/text/lines.h"
 
 namespace nacre {
 
@@ -31,7 +32,7 @@ Mesh read_serialized(const MeshSource& source, int shape_index);
 /// Whole content of a file; throws InputError.
 std::string read_bytes(const std::filesystem::path& path);
 
-/// Adds a polygon as a fan, or counts it as dropped if it has fewer than three corners.
+/// Adds a convex polygon as a fan, or counts it as dropped if it has fewer than three corners.
 template <class Corners>
 void add_polygon(Mesh& mesh, const Corners& corners) {
     if (corners.size() < 3) ++mesh.dropped_triangles;
@@ -49,14 +50,16 @@ void add_strip(Mesh& mesh, const Corners& corners) {
     }
 }
 
-/// Text as lines of blank-separated words, comments (# to the end of the line) left out.
+/// Text as lines of blank-separated words, comments (# to the end of the line), byte order marks
+/// and line ends of any system left out. Throws InputError if the file is text in UTF-16.
 class TextLines {
   public:
-    TextLines(const MeshSource& source, std::size_t offset, std::size_t line)
-        : source_(source), offset_(offset), line_(line) {}
+    TextLines(const MeshSource& source, std::size_t offset, std::size_t line);
 
     /// Goes to the next line that has a word; false at the end of the file.
     bool next_line();
+    /// Goes to the next line, empty or not; false at the end of the file.
+    bool following_line();
     /// Next word of the line; empty at its end.
     std::string_view word();
     /// Next word of the file, from whichever line; empty at the end of the file.
@@ -68,13 +71,13 @@ class TextLines {
     std::int64_t to_integer(std::string_view word, const char* what) const;
     bool line_done();
     /// Number of the current line, from 1.
-    std::size_t line() const { return line_; }
+    std::size_t line() const { return lines_.line(); }
     /// Bytes not yet read, the rest of the current line included.
-    std::size_t remaining() const { return source_.bytes.size() - offset_ + rest_.size(); }
+    std::size_t remaining() const { return source_.bytes.size() - lines_.offset() + rest_.size(); }
 
   private:
     const MeshSource& source_;
-    std::size_t offset_, line_;
+    LineSplitter lines_;
     std::string_view rest_;
 };
 

@@ -3,6 +3,7 @@
 // the same place are welded; the facet normals, which follow from the corners, are not read.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -28,6 +29,16 @@ Vec3f checked(const MeshSource& source, std::size_t line, std::size_t triangle, 
                                          "{}); coordinates must be finite",
                                          triangle, p.x, p.y, p.z));
     return p;
+}
+
+// Binary files may begin with "solid", too, but hold control characters: the last byte of the
+// number of triangles is one of them in any file below 16 GB.
+bool is_text(std::string_view bytes) {
+    std::string_view start = bytes.substr(byte_order_mark(bytes), 512);
+    const bool control = std::any_of(start.begin(), start.end(), [](unsigned char c) {
+        return c < ' ' && !is_blank(static_cast<char>(c));
+    });
+    return !control && same_word(take_word(start).substr(0, 5), "solid");
 }
 
 Mesh read_text(const MeshSource& source) {
@@ -103,9 +114,7 @@ Mesh read_stl(const MeshSource& source) {
         if (bytes.size() == kHeaderBytes + count * kTriangleBytes)
             return read_binary(source, count);
     }
-    const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    if (start != std::string_view::npos && same_word(bytes.substr(start, 5), "solid"))
-        return read_text(source);
+    if (is_text(bytes)) return read_text(source);
     if (bytes.size() < kHeaderBytes)
         source.fail(fmt::format(
             "is neither text STL, which begins with 'solid', nor binary STL, whose header alone "
@@ -116,6 +125,11 @@ Mesh read_stl(const MeshSource& source) {
             fmt::format("is truncated: its header promises {} triangles ({} bytes), but it "
                         "has {} bytes; export it again",
                         count, kHeaderBytes + count * kTriangleBytes, bytes.size()));
+    if (count == 0 && bytes.size() >= kHeaderBytes + kTriangleBytes)
+        source.fail(
+            fmt::format("promises 0 triangles in its header, but {} bytes follow it; export "
+                        "it again",
+                        bytes.size() - kHeaderBytes));
     return read_binary(source, count);  // something after the triangles does no harm
 }
 

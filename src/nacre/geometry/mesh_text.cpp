@@ -1,51 +1,36 @@
 // Words and numbers of text formats.
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "nacre/geometry/mesh_source.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
-namespace {
 
-constexpr std::string_view kBlank = " \t\r\v\f";
-
-template <class T>
-bool parse(std::string_view word, T& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    return stop == end && !word.empty() && error == std::errc{};
+TextLines::TextLines(const MeshSource& source, std::size_t offset, std::size_t line)
+    : source_(source), lines_(source.bytes, offset, line) {
+    if (offset == 0 && is_utf16(source.bytes))
+        source.fail("is text in UTF-16, which is not read; save it as UTF-8 or ASCII");
 }
 
-}  // namespace
-
 bool TextLines::line_done() {
-    const std::size_t start = rest_.find_first_not_of(kBlank);
-    rest_.remove_prefix(start == std::string_view::npos ? rest_.size() : start);
+    while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
     return rest_.empty();
 }
 
 bool TextLines::next_line() {
-    const std::string_view text = source_.bytes;
-    while (offset_ < text.size()) {
-        const std::size_t end = std::min(text.find('\n', offset_), text.size());
-        rest_ = text.substr(offset_, end - offset_);
-        rest_ = rest_.substr(0, rest_.find('#'));
-        offset_ = std::min(end + 1, text.size());
-        ++line_;
+    while (following_line())
         if (!line_done()) return true;
-    }
-    rest_ = {};
     return false;
 }
 
-std::string_view TextLines::word() {
-    if (line_done()) return {};
-    const std::string_view found = rest_.substr(0, rest_.find_first_of(kBlank));
-    rest_.remove_prefix(found.size());
-    return found;
+bool TextLines::following_line() {
+    rest_ = {};
+    if (!lines_.next(rest_)) return false;
+    rest_ = without_comment(rest_);
+    return true;
 }
+
+std::string_view TextLines::word() { return take_word(rest_); }
 
 std::string_view TextLines::any_word() {
     if (line_done() && !next_line()) return {};
@@ -53,21 +38,23 @@ std::string_view TextLines::any_word() {
 }
 
 double TextLines::to_number(std::string_view word, const char* what) const {
-    double value = 0;
-    if (!parse(word, value))
-        source_.fail(line_, word.empty() ? fmt::format("{} is missing; the line is too short", what)
-                                         : fmt::format("'{}' stands where {} should be a number",
-                                                       word, what));
-    return value;
+    const auto value = parse_number(word);
+    if (!value)
+        source_.fail(line(),
+                     word.empty()
+                         ? fmt::format("{} is missing; the line is too short", what)
+                         : fmt::format("'{}' stands where {} should be a number", word, what));
+    return *value;
 }
 
 std::int64_t TextLines::to_integer(std::string_view word, const char* what) const {
-    std::int64_t value = 0;
-    if (!parse(word, value))
-        source_.fail(line_, word.empty() ? fmt::format("{} is missing; the line is too short", what)
-                                         : fmt::format("'{}' stands where {} should be an integer",
-                                                       word, what));
-    return value;
+    const auto value = parse_integer(word);
+    if (!value)
+        source_.fail(line(),
+                     word.empty()
+                         ? fmt::format("{} is missing; the line is too short", what)
+                         : fmt::format("'{}' stands where {} should be an integer", word, what));
+    return *value;
 }
 
 double TextLines::number(const char* what) { return to_number(word(), what); }
