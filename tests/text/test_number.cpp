@@ -72,6 +72,8 @@ TEST(Lines, EndsOfAnySystem) {
     EXPECT_EQ(take_word(line), "e");
     EXPECT_EQ(take_word(line), "f");
     EXPECT_EQ(take_word(line), "");
+    EXPECT_EQ(without_comment("1.#IND -1.#QNAN 1.#INF 1.#comment"), "1.#IND -1.#QNAN 1.#INF 1.");
+    EXPECT_EQ(without_comment("#IND"), "");
 }
 
 }  // namespace

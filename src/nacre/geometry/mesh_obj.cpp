@@ -151,7 +151,7 @@ class ObjReader {
     std::uint32_t index(std::string_view word, std::string_view part, std::size_t count,
                         Largest& largest) {
         if (part.empty()) return 0;
-        if (part.front() == '+') part.remove_prefix(1);
+        if (part.starts_with('+') && !part.starts_with("+-")) part.remove_prefix(1);
         std::int64_t number = 0;
         const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), number);
         if (stop != part.data() + part.size() || error == std::errc::invalid_argument)

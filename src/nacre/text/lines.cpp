@@ -35,6 +35,14 @@ std::string_view take_word(std::string_view& line) {
     return {begin, static_cast<std::size_t>(at - begin)};
 }
 
-std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+std::string_view without_comment(std::string_view line) {
+    for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1)) {
+        const std::string_view rest = line.substr(at + 1);
+        if (at == 0 || line[at - 1] != '.' ||
+            !(rest.starts_with("IN") || rest.starts_with("QNAN") || rest.starts_with("SNAN")))
+            return line.substr(0, at);
+    }
+    return line;
+}
 
 }  // namespace nacre

@@ -38,7 +38,8 @@ class LineSplitter {
 /// Takes the next word off `line`; empty if there is none.
 std::string_view take_word(std::string_view& line);
 
-/// The line up to a comment, which begins with '#'.
+/// The line up to a comment, which begins with '#'; that of "1.#IND" and the like, as Windows
+/// printed what is no number, begins none.
 std::string_view without_comment(std::string_view line);
 
 }  // namespace nacre
