@@ -148,12 +148,8 @@ TEST(StlBinary, MayBeginWithSolid) {
                 EXPECT_EQ(
                     e.what(),
                     size < 84
-                        ? start.find('\0') == start.npos
-                              ? "a.stl: has no triangles; nacre renders surfaces, not points, "
-                                "lines or empty files"
-                              : "a.stl: is neither text STL, which begins with 'solid', nor binary "
-                                "STL, whose "
-                                "header alone takes 84 bytes: it has 83"
+                        ? "a.stl: is neither text STL, which begins with 'solid', nor binary STL, "
+                          "whose header alone takes 84 bytes: it has 83"
                         : fmt::format("a.stl: is truncated: its header promises 12 triangles (684 "
                                       "bytes), but it has {} bytes; export it again",
                                       size));
