@@ -135,7 +135,7 @@ TEST(MeshMatrix, Comments) {
                   return replace_all(s, "element", "comment element vertex 3 \\\nelement");
               return fmt::format("# D:\\work\\\n{}", replace_all(s, "\n", "\n# D:\\work\\\n"));
           },
-          {{Obj, kCube}, {PlyText, kCube}, {PlyBinary, kCube}});
+          {{Obj, kCube}, {PlyText, kCube}, {PlyBinary, kCube}, {Off, kCube}, {StlText, kCube}});
     check("comments behind words",
           [](int r) { return replace_all(bytes_of(r, unit_cube()), "\n", " # D:\\work\\\n"); },
           {{Obj, kCube}, {Off, kCube}, {StlText, kCube}});
@@ -281,7 +281,13 @@ TEST(MeshMatrix, Overflow) {
     const std::string message =
         ": vertex 1 (counted from 0) lies at (inf, 0, 0); coordinates must be finite and below "
         "1e18";
-    check("overflow", with, {{Obj, message}, {PlyText, message}, {Off, message}});
+    check("overflow", with,
+          {{Obj, message},
+           {PlyText, message},
+           {Off, message},
+           {StlText,
+            ":13: triangle 1 (counted from 0) has a corner at (inf, 0, 0); coordinates must "
+            "be finite"}});
 }
 
 TEST(MeshMatrix, Truncated) {

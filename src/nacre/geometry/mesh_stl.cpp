@@ -34,11 +34,17 @@ Vec3f checked(const MeshSource& source, std::size_t line, std::size_t triangle, 
 // Binary files may begin with "solid", too, but hold control characters: the last byte of the
 // number of triangles is one of them in any file below 16 GB.
 bool is_text(std::string_view bytes) {
-    std::string_view start = bytes.substr(byte_order_mark(bytes), 512);
-    const bool control = std::any_of(start.begin(), start.end(), [](unsigned char c) {
-        return c < ' ' && !is_blank(static_cast<char>(c));
-    });
-    return !control && same_word(take_word(start).substr(0, 5), "solid");
+    const std::string_view start = bytes.substr(0, 512);
+    if (std::any_of(start.begin(), start.end(),
+                    [](unsigned char c) { return c < ' ' && !is_blank(static_cast<char>(c)); }))
+        return false;
+    LineSplitter lines(bytes);
+    for (std::string_view line; lines.next(line);) {
+        line = without_comment(line);
+        const std::string_view word = take_word(line);
+        if (!word.empty()) return same_word(word.substr(0, 5), "solid");
+    }
+    return false;
 }
 
 Mesh read_text(const MeshSource& source) {
