@@ -1,317 +1,350 @@
-// Readers of meshes x what files of others hold: each cell is read as the same unit cube or refused
-// with the message that says what, where and how to mend it (docs/mesh-formats.md has the table).
-#include <array>
+// Readers x situations (docs/mesh-formats.md has the table): every cell is the right mesh, by area
+// and volume, or the whole message of a refusal.
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
 
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/math/error.h"
-#include "tests/geometry/files.h"
+#include "tests/geometry/solids.h"
 
 namespace nacre {
 namespace {
 
 using namespace test;
 
-constexpr float kCube[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                               {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-constexpr int kSides[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+enum Reader { Obj, PlyText, PlyBinary, Off, StlText, StlBinary, Serialized, ReaderCount };
+const char* const kNames[] = {"a.obj", "a.ply", "b.ply", "a.off", "a.stl", "b.stl", "a.serialized"};
 
-std::string points(const std::string& before = "") {
-    std::string s;
-    for (const auto& p : kCube) s += fmt::format("{}{} {} {}\n", before, p[0], p[1], p[2]);
-    return s;
-}
-
-std::string cube_obj() {
-    std::string s = "# cube\n" + points("v ");
-    for (const auto& f : kSides)
-        s += fmt::format("f {} {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1, f[3] + 1);
-    return s;
-}
-
-std::string sides() {
-    std::string s;
-    for (const auto& f : kSides) s += fmt::format("4 {} {} {} {}\n", f[0], f[1], f[2], f[3]);
-    return s;
-}
-
-std::string cube_off() { return "OFF\n# cube\n8 6 12\n" + points() + sides(); }
-
-std::string ply_header(const char* format) {
-    return fmt::format(
-        "ply\nformat {} 1.0\ncomment cube\nelement vertex 8\nproperty float x\nproperty float y\n"
-        "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n",
-        format);
-}
-
-std::string cube_ply() { return ply_header("ascii") + points() + sides(); }
-
-std::string cube_body() {
-    std::string s;
-    for (const auto& p : kCube)
-        for (const float x : p) put(s, x);
-    for (const auto& f : kSides) {
-        put(s, std::uint8_t{4});
-        for (const int v : f) put(s, std::int32_t{v});
+std::string bytes_of(int reader, const Solid& s) {
+    switch (reader) {
+        case Obj:
+            return solid_obj(s);
+        case PlyText:
+            return solid_ply(s, false);
+        case PlyBinary:
+            return solid_ply(s, true);
+        case Off:
+            return solid_off(s);
+        case StlText:
+            return solid_stl(s, false);
+        case StlBinary:
+            return solid_stl(s, true);
+        default:
+            return solid_serialized(s);
     }
-    return s;
+}
+bool is_text(int reader) {
+    return reader == Obj || reader == PlyText || reader == Off || reader == StlText;
 }
 
-std::string cube_binary_ply() { return ply_header("binary_little_endian") + cube_body(); }
-
-std::string cube_stl(bool binary, const std::string& name = "solid cube") {
-    std::string s = binary ? (name + std::string(80, ' ')).substr(0, 80) : name + "\n";
-    if (binary) put(s, std::uint32_t{12});
-    for (const auto& f : kSides)
-        for (const std::array<int, 3> t :
-             {std::array{f[0], f[1], f[2]}, std::array{f[0], f[2], f[3]}}) {
-            if (binary)
-                for (int i = 0; i < 3; ++i) put(s, 0.f);
-            else
-                s += "facet normal 0 0 0\nouter loop\n";
-            for (const int v : t) {
-                if (!binary)
-                    s += fmt::format("vertex {} {} {}\n", kCube[v][0], kCube[v][1], kCube[v][2]);
-                else
-                    for (const float x : kCube[v]) put(s, x);
-            }
-            if (binary)
-                put(s, std::uint16_t{0x8001});
-            else
-                s += "endloop\nendfacet\n";
-        }
-    return binary ? s : s + "endsolid cube\n";
-}
-
-std::string with(std::string text, const std::string& what, const std::string& by) {
-    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
-        text.replace(at, what.size(), by);
-    return text;
-}
-
-/// The first occurrence only.
-std::string once(std::string text, const std::string& what, const std::string& by) {
-    const std::size_t at = text.find(what);
-    if (at == text.npos) throw std::logic_error("test text lacks " + what);
-    return text.replace(at, what.size(), by);
-}
-
-struct Cell {
-    const char* situation;
-    std::string name, bytes;
-    std::string expected = "";  ///< empty: read; else the message behind the file's name
-};
-
-void check(const std::vector<Cell>& cells) {
-    for (const Cell& c : cells) {
-        SCOPED_TRACE(c.name + ": " + c.situation);
-        std::string message;
-        try {
-            const auto mesh = parse_mesh(c.bytes, c.name);
-            const MeshReport report = inspect(*mesh);
-            if (c.expected.empty()) {
-                EXPECT_NEAR(report.area, 6, 1e-6);
-                EXPECT_NEAR(report.volume, 1, 1e-6);
-                EXPECT_TRUE(report.solid());
-            }
-        } catch (const InputError& e) {
-            message = e.what();
-        }
-        EXPECT_EQ(message, c.expected.empty() ? "" : c.name + c.expected);
+std::string outcome(const std::string& bytes, const std::string& name) {
+    try {
+        const auto mesh = parse_mesh(bytes, name);
+        const MeshReport r = inspect(*mesh);
+        return fmt::format("{} {:.5g} {:.5g}", r.solid() ? "solid" : "open", r.area, r.volume);
+    } catch (const InputError& e) {
+        return e.what();
     }
 }
 
-const std::string bom = "\xef\xbb\xbf";
+const std::string kCube = "solid 6 1", kL = "solid 14 3";
 
-TEST(MeshMatrix, TextOfAnyKind) {
-    const std::pair<const char*, std::string> files[] = {{"a.obj", cube_obj()},
-                                                         {"a.off", cube_off()},
-                                                         {"a.ply", cube_ply()},
-                                                         {"a.stl", cube_stl(false)}};
-    for (const auto& [name, text] : files)
+// Expected outcomes, reader by reader; the messages without the file's name.
+void check(const char* situation, const std::function<std::string(int)>& bytes,
+           const std::map<int, std::string>& expected) {
+    for (const auto& [reader, what] : expected) {
+        const bool read = what.starts_with("solid") || what.starts_with("open");
+        EXPECT_EQ(outcome(bytes(reader), kNames[reader]), read ? what : kNames[reader] + what)
+            << situation;
+    }
+}
+
+std::map<int, std::string> all(const std::string& what, bool text_only = false) {
+    std::map<int, std::string> expected;
+    for (int r = 0; r < ReaderCount; ++r)
+        if (!text_only || is_text(r)) expected[r] = what;
+    return expected;
+}
+
+TEST(MeshMatrix, PlainAndMarked) {
+    check(
+        "plain", [](int r) { return bytes_of(r, unit_cube()); }, all(kCube));
+    auto marked = all(kCube, true);
+    marked[PlyBinary] = kCube;
+    check(
+        "byte order mark",
+        [](int r) { return fmt::format("\xef\xbb\xbf{}", bytes_of(r, unit_cube())); }, marked);
+    check("UTF-16",
+          [](int r) {
+              std::string wide = "\xff\xfe";
+              for (const char c : bytes_of(r, unit_cube())) wide += {c, '\0'};
+              return wide;
+          },
+          {{Obj, ": is text in UTF-16, which is not read; save it as UTF-8 or ASCII"},
+           {Off, ": is text in UTF-16, which is not read; save it as UTF-8 or ASCII"},
+           {PlyText, ": is not a PLY file: it does not begin with 'ply'"}});
+}
+
+TEST(MeshMatrix, LineEnds) {
+    for (const char* end : {"\r", "\r\n", "\r\r\n", "\n\n"})
         check(
-            {{"LF", name, text},
-             {"CR LF", name, with(text, "\n", "\r\n")},
-             {"CR", name, with(text, "\n", "\r")},
-             {"byte order mark", name, bom + text},
-             {"byte order mark, CR LF", name, bom + with(text, "\n", "\r\n")},
-             {"no end of the last line", name, text.substr(0, text.size() - 1)},
-             {"form feeds and tabs", name, with(text, " ", "\t")},
-             {"numbers with signs and bare points", name,
-              with(text, name == std::string("a.stl") ? "vertex 1 0 0" : "1 0 0\n",
-                   name == std::string("a.stl") ? "vertex +1.0 -0. .0e0" : "+1.0 -0. .0e0\n")},
-             {"underflow", name,
-              with(text, name == std::string("a.stl") ? "vertex 1 0 0" : "1 0 0\n",
-                   name == std::string("a.stl") ? "vertex 1 1e-400 1e-50" : "1 1e-400 1e-50\n")}});
+            "line ends", [&](int r) { return replace_all(bytes_of(r, unit_cube()), "\n", end); },
+            all(kCube, true));
+    check(
+        "mixed line ends",
+        [](int r) {
+            std::string mixed;
+            int i = 0;
+            for (const char c : bytes_of(r, unit_cube())) {
+                if (c != '\n') {
+                    mixed += c;
+                    continue;
+                }
+                // PLY's first line says where header lines end.
+                const int end = i++ % 3;
+                if (end != 0) mixed += '\r';
+                if (end != 2 || r == PlyText) mixed += '\n';
+            }
+            return mixed;
+        },
+        all(kCube, true));
+    // The header of a binary file: what looks like a line end behind it belongs to the body.
+    for (const char* end : {"\r", "\r\n"}) {
+        std::string s = solid_ply(unit_cube(), true);
+        const std::size_t body = s.find("end_header\n") + 11;
+        std::string data = s.substr(body);
+        Solid other = unit_cube();
+        EXPECT_EQ(outcome(replace_all(s.substr(0, body), "\n", end) + data, "b.ply"), kCube);
+        // An element whose first byte is LF.
+        s = replace_all(s, "element vertex", "element tag 1\nproperty uchar a\nelement vertex");
+        const std::size_t behind = s.find("end_header\n") + 11;
+        EXPECT_EQ(
+            outcome(replace_all(s.substr(0, behind), "\n", end) + "\n" + s.substr(behind), "b.ply"),
+            kCube);
+    }
 }
 
-TEST(MeshMatrix, Obj) {
-    const std::string cube = cube_obj();
-    const auto vertex = [&](const std::string& by) { return once(cube, "v 1 0 0\n", by + "\n"); };
-    const auto face = [&](const std::string& by) { return once(cube, "f 1 4 3 2\n", by + "\n"); };
-    std::vector<Cell> cells = {
-        {"negative indices", "a.obj", face("f -8 -5 -6 -7")},
-        {"comment in a face", "a.obj", face("f 1 4 3 2 # 5 6")},
-        {"comment at a word", "a.obj", face("f 1 4 3 2#5 6")},
-        {"comment behind numbers", "a.obj", vertex("v 1 0 0 # 1 2 3")},
-        {"comment that ends in a backslash", "a.obj", once(cube, "f 1", "# C:\\work\\\nf 1")},
-        {"comment behind a face that ends in one", "a.obj", face("f 1 4 3 2 # C:\\work\\")},
-        {"mtllib that ends in one", "a.obj", once(cube, "f 1", "mtllib C:\\work\\\nf 1")},
-        {"usemtl that ends in one", "a.obj", once(cube, "f 1", "usemtl stone\\\nf 1")},
-        {"o and g that end in one", "a.obj", once(cube, "f 1", "o a\\\ng b\\\nf 1")},
-        {"continued face", "a.obj", face("f 1 4 \\\n3 \\\n 2")},
-        {"continued face, CR LF, blanks", "a.obj", with(face("f 1 4 \\ \n3 2"), "\n", "\r\n")},
-        {"continued vertex", "a.obj", vertex("v 1 \\\n0 0")},
-        {"v//", "a.obj", face("f 1// 4// 3// 2//")},
-        {"v/", "a.obj", face("f 1/ 4/ 3/ 2/")},
-        {"v/vt/", "a.obj", "vt 0 0\n" + face("f 1/1/ 4/1/ 3/1/ 2/1/")},
-        {"v//vn", "a.obj", "vn 0 0 -1\n" + face("f 1//1 4//1 3//1 2//1")},
-        {"colours and w", "a.obj", vertex("v 1 0 0 1.0 0.5 0.25 1")},
-        {"lines, points, curves", "a.obj", cube + "l 1 2\np 1\nvp 0.5\ncurv 0 1 1 2\n"},
-        {"/v", "a.obj", face("f /1 4 3 2"),
-         ":10: '/1' is not a corner; write v, v/vt, v//vn or v/vt/vn"},
-        {"four parts", "a.obj", face("f 1/1/1/1 4 3 2"),
-         ":10: '1/1/1/1' is not a corner; write v, v/vt, v//vn or v/vt/vn"},
-        {"index with a point", "a.obj", face("f 1.5 4 3 2"),
-         ":10: '1.5' is not a corner; write v, v/vt, v//vn or v/vt/vn"},
-        {"lone sign", "a.obj", face("f - 4 3 2"),
-         ":10: '-' is not a corner; write v, v/vt, v//vn or v/vt/vn"},
-        {"index of 2^32 + 1", "a.obj", face("f 4294967297 4 3 2"),
-         ":10: face 1 (counted from 1) has index 4294967297, but 8 are defined before it"},
-        {"index of 2^64 + 1", "a.obj", face("f 18446744073709551617 4 3 2"),
-         ":10: face 1 (counted from 1) has index 18446744073709551617, but 8 are defined before "
-         "it"},
-        {"negative index of 2^32", "a.obj", face("f -4294967296 4 3 2"),
-         ":10: face 1 (counted from 1) has index -4294967296, but 8 are defined before it"},
-        {"truncated in a vertex", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1",
-         ":3: 'v' with 2 numbers; it needs 3"},
-        {"truncated before its faces", "a.obj", cube.substr(0, cube.find('f')),
-         ": has no triangles; nacre renders surfaces, not points, lines or empty files"},
+TEST(MeshMatrix, Comments) {
+    check("comments on lines of their own",
+          [](int r) {
+              std::string s = bytes_of(r, unit_cube());
+              if (r == PlyText || r == PlyBinary)
+                  return replace_all(s, "element", "comment element vertex 3 \\\nelement");
+              return fmt::format("# D:\\work\\\n{}", replace_all(s, "\n", "\n# D:\\work\\\n"));
+          },
+          {{Obj, kCube}, {PlyText, kCube}, {PlyBinary, kCube}, {Off, kCube}, {StlText, kCube}});
+    check("comments behind words",
+          [](int r) { return replace_all(bytes_of(r, unit_cube()), "\n", " # D:\\work\\\n"); },
+          {{Obj, kCube}, {Off, kCube}, {StlText, kCube}});
+}
+
+TEST(MeshMatrix, NegativeIndices) {
+    EXPECT_EQ(outcome(solid_obj(unit_cube(), true), "a.obj"), kCube);
+    const auto negative = [](int r) {
+        Solid s = unit_cube();
+        s.faces[0][0] = static_cast<std::uint32_t>(-1);
+        return replace_all(bytes_of(r, s), "4294967295", "-1");
     };
-    for (const char* word :
-         {"nan", "NaN", "-nan(ind)", "1.#IND", "1.#QNAN0", "inf", "-Infinity", "1e", "-", ".",
-          "1e+", "1.0+01", "1e5e5", "1.2.3", "1,5", "0x10", "1f", "+-1"})
-        cells.push_back({"no number", "a.obj", vertex(fmt::format("v 1 {} 0", word)),
-                         fmt::format(":3: '{}' is not a finite number", word)});
-    cells.push_back({"overflow", "a.obj", vertex("v 1 1e60 0"),
-                     ": vertex 1 (counted from 0) lies at (1, inf, 0); coordinates must be finite "
-                     "and below 1e18"});
-    cells.push_back({"overflow of a double", "a.obj", vertex("v 1 -1e999 0"),
-                     ": vertex 1 (counted from 0) lies at (1, -inf, 0); coordinates must be finite "
-                     "and below 1e18"});
-    check(cells);
+    const std::string message = "face 0 names vertex -1, but vertices run from 0 to 7";
+    check("negative indices", negative,
+          {{PlyText, ":18: " + message},
+           {PlyBinary, ": " + message},
+           {Off, ":11: " + message},
+           {Serialized,
+            ": face 0 names vertex 4294967295, but the mesh has 8 vertices (counted "
+            "from 0)"}});
 }
 
-TEST(MeshMatrix, Off) {
-    const std::string cube = cube_off();
-    const std::string body = "8 6 12\n" + points() + sides();
-    check({
-        {"ModelNet's header", "a.off", "OFF" + body},
-        {"colours", "a.off", "COFF\n8 6 12\n" + with(points(), "\n", " 255 0 0 255\n") + sides()},
-        {"colours, glued header", "a.off",
-         "COFF8 6 12\n" + with(points(), "\n", " 255 0 0 255\n") + sides()},
-        {"normals", "a.off", "NOFF\n8 6 12\n" + with(points(), "\n", " 0 0 1\n") + sides()},
-        {"header in one line", "a.off", "OFF " + body},
-        {"comments behind numbers", "a.off", with(cube, "\n1 0 0\n", "\n1 0 0 # corner\n")},
-        {"face colours", "a.off", with(cube, "\n4 0 3 2 1\n", "\n4 0 3 2 1 0.5 0.5 0.5\n")},
-        {"another word", "a.off", "OFFICE 8 6 12\n" + points() + sides(),
-         ":1: begins with 'OFFICE'; an OFF file begins with 'OFF'"},
-        {"no number", "a.off", once(cube, "\n1 0 0\n", "\n1.2.3 0 0\n"),
-         ":5: '1.2.3' stands where a coordinate should be a number"},
-        {"not finite", "a.off", once(cube, "\n1 0 0\n", "\n1 nan 0\n"),
-         ": vertex 1 (counted from 0) lies at (1, nan, 0); coordinates must be finite and below "
-         "1e18"},
-        {"not finite as Windows spells it", "a.off", once(cube, "\n1 0 0\n", "\n1 1.#IND 0\n"),
-         ":5: '1.#IND' stands where a coordinate should be a number"},
-        {"overflow", "a.off", once(cube, "\n1 0 0\n", "\n1 1e400 0\n"),
-         ": vertex 1 (counted from 0) lies at (1, inf, 0); coordinates must be finite and below "
-         "1e18"},
-        {"negative index", "a.off", once(cube, "4 0 3 2 1", "4 -8 3 2 1"),
-         ":12: face 0 names vertex -8, but vertices run from 0 to 7"},
-        {"index of 2^32", "a.off", once(cube, "4 0 3 2 1", "4 4294967296 3 2 1"),
-         ":12: face 0 names vertex 4294967296, but vertices run from 0 to 7"},
-        {"index of 2^64", "a.off", once(cube, "4 0 3 2 1", "4 18446744073709551616 3 2 1"),
-         ":12: '18446744073709551616' stands where a vertex index should be an integer"},
-        {"truncated", "a.off", cube.substr(0, cube.find("4 0 1 5 4")),
-         ": is truncated: 2 of 6 faces; export it again"},
-        {"count of 2^64", "a.off", "OFF 18446744073709551616 6 0\n",
-         ":1: '18446744073709551616' stands where the number of vertices should be an integer"},
-    });
+TEST(MeshMatrix, IndicesDoNotWrap) {
+    for (const char* index : {"4294967297", "9223372036854775809", "18446744073709551618"}) {
+        Solid s = unit_cube();
+        const std::string obj = replace_all(solid_obj(s), "f 5 6", fmt::format("f 5 {}", index));
+        EXPECT_EQ(outcome(obj, "a.obj"),
+                  fmt::format("a.obj:10: face 2 (counted from 1) has index {}, but 8 are defined "
+                              "before it",
+                              index));
+        EXPECT_EQ(
+            outcome(replace_all(solid_off(s), "4 4 5", fmt::format("4 4 {}", index)), "a.off"),
+            index[0] == '4' ? "a.off:12: face 1 names vertex 4294967297, but vertices run "
+                              "from 0 to 7"
+                            : fmt::format("a.off:12: '{}' stands where a vertex index should "
+                                          "be an integer",
+                                          index));
+        EXPECT_TRUE(outcome(replace_all(solid_ply(s, false), "4 4 5", fmt::format("4 4 {}", index)),
+                            "a.ply")
+                        .starts_with("a.ply:19: face 1 names vertex "));
+    }
+    // Counts of the header.
+    const std::string many = "18446744073709551624";
+    EXPECT_EQ(
+        outcome(replace_all(solid_ply(unit_cube(), false), "vertex 8", "vertex " + many), "a.ply"),
+        "a.ply:3: '" + many + "' stands where the number of elements should be an integer");
+    EXPECT_EQ(outcome(replace_all(solid_off(unit_cube()), "8 6 0", many + " 6 0"), "a.off"),
+              "a.off:2: '" + many + "' stands where the number of vertices should be an integer");
 }
 
-TEST(MeshMatrix, Ply) {
-    const std::string cube = cube_ply(), binary = cube_binary_ply();
-    const std::string header = ply_header("binary_little_endian");
-    // A body whose first byte is a line feed: behind a header of CR it is data.
-    std::string line_feed = cube_body();
-    line_feed[0] = '\n', line_feed[1] = line_feed[2] = line_feed[3] = 0;  // x of 1.4e-44
-    check({
-        {"binary", "a.ply", binary},
-        {"binary, header of CR LF", "a.ply", with(header, "\n", "\r\n") + cube_body()},
-        {"binary, header of CR", "a.ply", with(header, "\n", "\r") + cube_body()},
-        {"binary, header of CR, data of LF", "a.ply", with(header, "\n", "\r") + line_feed},
-        {"binary, byte order mark", "a.ply", bom + binary},
-        {"binary, bytes behind it", "a.ply", binary + "more"},
-        {"comments anywhere in the header", "a.ply",
-         once(cube, "property float y\n", "comment a\nproperty float y\nobj_info b\n")},
-        {"binary, truncated", "a.ply", binary.substr(0, binary.size() - 3),
-         ": is truncated in face 5 of 6 (counted from 0); export it again"},
-        {"truncated", "a.ply", cube.substr(0, cube.size() - 4),
-         ": is truncated in face 5 of 6 (counted from 0); export it again"},
-        {"truncated header", "a.ply", cube.substr(0, 30),
-         ": is truncated: no 'end_header' in its 30 bytes; export it again"},
-        {"no number", "a.ply", once(cube, "\n1 0 0\n", "\n1.2.3 0 0\n"),
-         ":12: '1.2.3' stands where a property should be a number"},
-        {"not finite", "a.ply", once(cube, "\n1 0 0\n", "\n1 -nan(ind) 0\n"),
-         ": vertex 1 (counted from 0) lies at (1, -nan, 0); coordinates must be finite and below "
-         "1e18"},
-        {"overflow", "a.ply", once(cube, "\n1 0 0\n", "\n1 1e60 0\n"),
-         ": vertex 1 (counted from 0) lies at (1, inf, 0); coordinates must be finite and below "
-         "1e18"},
-        {"negative index", "a.ply", once(cube, "4 0 3 2 1", "4 -8 3 2 1"),
-         ":19: face 0 names vertex -8, but vertices run from 0 to 7"},
-        {"index of 2^32", "a.ply", once(cube, "4 0 3 2 1", "4 4294967296 3 2 1"),
-         ":19: face 0 names vertex 4294967296, but vertices run from 0 to 7"},
-        {"list of 2^64 items", "a.ply", once(cube, "4 0 3 2 1", "18446744073709551616 0 3 2 1"),
-         ": is truncated in face 0 of 6 (counted from 0); export it again"},
-    });
+TEST(MeshMatrix, ConcavePolygons) {
+    check("concave", [](int r) { return bytes_of(r, prism(l_shape(), 2)); },
+          {{Obj, kL}, {PlyText, kL}, {PlyBinary, kL}, {Off, kL}});
 }
 
-TEST(MeshMatrix, Stl) {
-    const std::string cube = cube_stl(false), binary = cube_stl(true);
-    std::string infinite = binary;
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(infinite.data() + 84 + 12, &nan, 4);
-    check({
-        {"binary", "a.stl", binary},
-        {"binary that begins with solid, bytes behind it", "a.stl", binary + "xx"},
-        {"binary with another header, bytes behind it", "a.stl", cube_stl(true, "STLB") + "xx"},
-        {"binary that begins with solid, truncated", "a.stl", binary.substr(0, binary.size() - 10),
-         ": is truncated: its header promises 12 triangles (684 bytes), but it has 674 bytes; "
-         "export it again"},
-        {"binary with another header, truncated", "a.stl", cube_stl(true, "STLB").substr(0, 300),
-         ": is truncated: its header promises 12 triangles (684 bytes), but it has 300 bytes; "
-         "export it again"},
-        {"binary, not finite", "a.stl", infinite,
-         ": triangle 0 (counted from 0) has a corner at (nan, 0, 0); coordinates must be finite"},
-        {"upper case", "a.stl", with(with(cube, "facet", "FACET"), "vertex", "VERTEX")},
-        {"name of several words", "a.stl", once(cube, "solid cube", "solid the cube 1.0")},
-        {"no name", "a.stl", once(cube, "solid cube", "solid")},
-        {"two solids", "a.stl", once(cube, "facet", "endsolid\nsolid b\nfacet")},
-        {"facets' normals of nan", "a.stl", with(cube, "normal 0 0 0", "normal nan nan nan")},
-        {"no number", "a.stl", once(cube, "vertex 0 1 0", "vertex 0 1.2.3 0"),
-         ":5: '1.2.3' stands where a coordinate should be a number"},
-        {"not finite", "a.stl", once(cube, "vertex 0 1 0", "vertex 0 -inf 0"),
-         ":5: triangle 0 (counted from 0) has a corner at (0, -inf, 0); coordinates must be "
-         "finite"},
-        {"overflow", "a.stl", once(cube, "vertex 0 1 0", "vertex 0 1e60 0"),
-         ":5: triangle 0 (counted from 0) has a corner at (0, inf, 0); coordinates must be finite"},
-        {"truncated in a facet", "a.stl", cube.substr(0, cube.rfind("endloop")),
-         ":83: the file ends where 'endloop' should stand; export it again"},
-        {"truncated between facets", "a.stl", cube.substr(0, cube.rfind("endsolid")),
-         ":85: the file ends where 'endsolid' should stand; export it again"},
-    });
+TEST(MeshMatrix, MissingNormals) {
+    // Given as zero, or as what is no number, they are computed like those that are absent.
+    Solid cube = unit_cube();
+    EXPECT_EQ(outcome(fmt::format("vn 0 0 0\n{}",
+                                  replace_all(solid_obj(cube), "f 1 4 3 2", "f 1//1 4//1 3 2")),
+                      "a.obj"),
+              kCube);
+    EXPECT_EQ(outcome(solid_serialized(cube, true), "a.serialized"), kCube);
+    std::string off = fmt::format("N{}", solid_off(cube)), ply = solid_ply(cube, false);
+    for (const auto& p : cube.positions) {
+        const std::string line = fmt::format("\n{} {} {}", p[0], p[1], p[2]);
+        const std::string end = "\n";
+        off = replace_all(off, line + end, line + " 0 0 0\n");
+        ply = replace_all(ply, line + end, line + " nan -nan(ind) 1.#IND\n");
+    }
+    ply =
+        replace_all(ply, "property float z\n",
+                    "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n");
+    EXPECT_EQ(outcome(off, "a.off"), kCube);
+    EXPECT_EQ(outcome(ply, "a.ply"), kCube);
+    for (const int r : {StlText, StlBinary})
+        EXPECT_EQ(outcome(bytes_of(r, cube), kNames[r]), kCube);
+}
+
+TEST(MeshMatrix, NumbersThatAreNotFinite) {
+    for (const char* word : {"nan", "NaN", "-nan(ind)", "1.#IND", "1.#QNAN", "inf", "-Infinity"}) {
+        const auto with = [&](int r) {
+            std::string s = bytes_of(r, unit_cube());
+            const std::size_t at = s.find("1 0 0\n");
+            return s.replace(at, 1, word);
+        };
+        const std::string_view w = word;
+        const std::string shown = w == "inf"         ? "inf"
+                                  : w == "-Infinity" ? "-inf"
+                                  : w[0] == '-'      ? "-nan"
+                                                     : "nan";
+        const std::string message = ": vertex 1 (counted from 0) lies at (" + shown +
+                                    ", 0, 0); coordinates must be finite and below 1e18";
+        check("not finite", with,
+              {{Obj, fmt::format(":2: '{}' is not a finite number", word)},
+               {PlyText, message},
+               {Off, message},
+               {StlText, ":13: triangle 1 (counted from 0) has a corner at (" + shown +
+                             ", 0, 0); coordinates must be finite"}});
+    }
+    Solid s = unit_cube();
+    s.positions[1][0] = -std::numeric_limits<float>::infinity();
+    const std::string message =
+        ": vertex 1 (counted from 0) lies at (-inf, 0, 0); coordinates must be finite and below "
+        "1e18";
+    check("not finite", [&](int r) { return bytes_of(r, s); },
+          {{PlyBinary, message},
+           {Serialized, message},
+           {StlBinary,
+            ": triangle 1 (counted from 0) has a corner at (-inf, 0, 0); coordinates "
+            "must be finite"}});
+}
+
+TEST(MeshMatrix, NumbersAreWholeWords) {
+    for (const char* word : {"1e", "-", ".", "1e+", "1.0+01", "1.2.3", "1e5e5", "0x10", "1,5"}) {
+        const auto with = [&](int r) {
+            std::string s = bytes_of(r, unit_cube());
+            const std::size_t at = s.find("1 0 0\n");
+            return s.replace(at, 1, word);
+        };
+        check("prefixes", with,
+              {{Obj, fmt::format(":2: '{}' is not a finite number", word)},
+               {PlyText, fmt::format(":11: '{}' stands where a property should be a number", word)},
+               {Off, fmt::format(":4: '{}' stands where a coordinate should be a number", word)},
+               {StlText,
+                fmt::format(":13: '{}' stands where a coordinate should be a number", word)}});
+    }
+    check("other spellings",
+          [](int r) {
+              std::string s = bytes_of(r, unit_cube());
+              const std::size_t at = s.find("1 0 0\n");
+              return s.replace(at, 5, "+1.0 -1e-50 .0e-999");
+          },
+          {{Obj, kCube}, {PlyText, kCube}, {Off, kCube}});
+}
+
+TEST(MeshMatrix, Overflow) {
+    const auto with = [](int r) {
+        std::string s = bytes_of(r, unit_cube());
+        const std::size_t at = s.find("1 0 0\n");
+        return s.replace(at, 1, "1e60");
+    };
+    const std::string message =
+        ": vertex 1 (counted from 0) lies at (inf, 0, 0); coordinates must be finite and below "
+        "1e18";
+    check("overflow", with,
+          {{Obj, message},
+           {PlyText, message},
+           {Off, message},
+           {StlText,
+            ":13: triangle 1 (counted from 0) has a corner at (inf, 0, 0); coordinates must "
+            "be finite"}});
+}
+
+TEST(MeshMatrix, Truncated) {
+    const auto cut = [](int r) {
+        const std::string s = bytes_of(r, unit_cube());
+        return s.substr(0, s.size() - 9);
+    };
+    check("truncated", cut,
+          {{Obj, "open 5 0.83333"},  // a last face without corners: OBJ states no numbers of faces
+           {PlyText, ": is truncated in face 5 of 6 (counted from 0); export it again"},
+           {PlyBinary, ": is truncated in face 5 of 6 (counted from 0); export it again"},
+           {Off, ":16: a vertex index is missing; the line is too short"},
+           {StlText, ":86: 'endsoli' stands where 'facet' should; is this an STL file?"},
+           {StlBinary,
+            ": is truncated: its header promises 12 triangles (684 bytes), but it has "
+            "675 bytes; export it again"}});
+    const std::string text = solid_stl(unit_cube(), false);
+    EXPECT_EQ(outcome(text.substr(0, text.rfind("endfacet")), "a.stl"),
+              "a.stl:84: the file ends where 'endfacet' should stand; export it again");
+    EXPECT_TRUE(outcome(cut(Serialized), "a.serialized").find("export it again") !=
+                std::string::npos);
+    EXPECT_EQ(outcome(solid_stl(unit_cube(), true) + "\r\n", "b.stl"), kCube);
+}
+
+TEST(MeshMatrix, Compressed) {
+    const std::pair<std::string, const char*> packers[] = {{"\x1f\x8b\x08", "gzip"},
+                                                           {"PK\x03\x04", "zip"},
+                                                           {"\x28\xb5\x2f\xfd", "zstd"},
+                                                           {"BZh9", "bzip2"}};
+    for (const auto& [start, name] : packers)
+        check(
+            "compressed", [&](int) { return start + "rest"; },
+            all(fmt::format(": is compressed with {}; unpack it first", name)));
+}
+
+TEST(MeshMatrix, Parts) {
+    // Two cubes in one file: all parts are read; .serialized has shape_index.
+    Solid two = unit_cube();
+    const Solid one = two;
+    for (auto p : one.positions) two.positions.push_back({p[0] + 3, p[1], p[2]});
+    for (auto f : one.faces) {
+        for (auto& i : f) i += 8;
+        two.faces.push_back(f);
+    }
+    check(
+        "parts", [&](int r) { return bytes_of(r, two); }, all("solid 12 2"));
+    Solid shifted = one;
+    for (auto& p : shifted.positions) p[0] += 3;
+    EXPECT_EQ(outcome(solid_stl(one, false) + solid_stl(shifted, false), "a.stl"), "solid 12 2");
+    EXPECT_EQ(outcome(fmt::format("o one\\\n{}g two\\\nusemtl C:\\a\\\n{}", solid_obj(one, true),
+                                  solid_obj(shifted, true)),
+                      "a.obj"),
+              "solid 12 2");
+    MeshOptions second;
+    second.shape_index = 1;
+    EXPECT_EQ(
+        parse_mesh(tetrahedron_serialized(4, false), "a.serialized", second)->triangles.size(), 4u);
 }
 
 }  // namespace

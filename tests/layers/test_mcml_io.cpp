@@ -123,6 +123,29 @@ TEST(McmlInput, SurvivesARoundTrip) {
     }
 }
 
+// Byte order marks and line ends of any system; signs, and numbers too small for a double.
+TEST(McmlInput, TextOfAnySystem) {
+    const auto swapped = [](const char* end) {
+        std::string s;
+        for (const char c : joined(good())) c == '\n' ? s += end : s += c;
+        return s;
+    };
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+        const auto runs = parse_mci("\xef\xbb\xbf" + swapped(end), "f");
+        ASSERT_EQ(runs.size(), 1u);
+        ASSERT_EQ(runs[0].stack.layers.size(), 2u);
+        EXPECT_EQ(runs[0].photons, 1000u);
+        EXPECT_EQ(runs[0].stack.layers[0].sigma_s, 10.);
+    }
+    const auto runs = parse_mci(joined(good(), 11, "+1.37 1e-999 +100. .9 0.1"), "f");
+    EXPECT_EQ(runs[0].stack.layers[0].sigma_a, 0.);
+    EXPECT_EQ(runs[0].stack.layers[0].g, 0.9);
+    EXPECT_EQ(test::message([&] { parse_mci(swapped("\r").replace(0, 1, "x 2\r#"), "f"); }),
+              "f:1: the version of the file format should be 1 word, not 2");
+    EXPECT_EQ(test::message([] { parse_mci(std::string("\xff\xfe#\0", 4), "f"); }),
+              "f: is text in UTF-16, which is not read; save it as UTF-8 or ASCII");
+}
+
 TEST(McmlInput, WrongFilesAreExplained) {
     struct Case {
         int line;
@@ -162,6 +185,15 @@ TEST(McmlInput, WrongFilesAreExplained) {
              Case{11, "1.37 1 100 0.9 0", "f:11: d of layer 1 = 0 must be positive"},
              Case{11, "1.37 1 nan 0.9 1", "f:11: mus of layer 1 is 'nan', which is not a number"},
              Case{12, "1.4 1 1e999 0 1", "f:12: mus of layer 2 is '1e999', which is not a number"},
+             Case{11, "1.37 1.2.3 100 0.9 1",
+                  "f:11: mua of layer 1 is '1.2.3', which is not a number"},
+             Case{11, "1.37 1 -nan(ind) 0.9 1",
+                  "f:11: mus of layer 1 is '-nan(ind)', which is not a number"},
+             Case{11, "1.37 1 1.#IND 0.9 1",
+                  "f:11: mus of layer 1 is '1.#IND', which is not a number"},
+             Case{6, "18446744073709551617",
+                  "f:6: the number of photons is '18446744073709551617'; it must be a whole number "
+                  "from 1 to 9007199254740992"},
              Case{13, "one", "f:13: n below is 'one', which is not a number"},
              Case{13, "# gone", "f:13: the file ends where n below should follow"},
              Case{13, "1.0\n1.0", "f:14: nothing should follow the 1 run that the file announces"},

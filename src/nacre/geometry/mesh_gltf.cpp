@@ -125,7 +125,7 @@ class GltfBuilder {
         if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
             add_strip(mesh_, corners);
         } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
-            add_fan(mesh_, corners);
+            add_polygon(mesh_, corners);
         } else {
             if (corners.size() % 3 != 0)
                 source_.fail(

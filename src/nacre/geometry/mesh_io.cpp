@@ -96,11 +96,21 @@ void trim(std::vector<T>& v, std::size_t extra) {
     v = std::move(exact);
 }
 
+// Files that a browser or an archiver left packed would only be called damaged.
+void refuse_compressed(const MeshSource& source) {
+    constexpr std::pair<std::string_view, const char*> kPacked[] = {{"\x1f\x8b", "gzip"},
+                                                                    {"PK\3\4", "zip"},
+                                                                    {"\xfd"
+                                                                     "7zXZ",
+                                                                     "xz"},
+                                                                    {"\x28\xb5\x2f\xfd", "zstd"},
+                                                                    {"BZh", "bzip2"}};
+    for (const auto& [start, name] : kPacked)
+        if (source.bytes.starts_with(start))
+            source.fail(fmt::format("is compressed with {}; unpack it first", name));
+}
+
 Mesh read(const MeshSource& source, const std::string& extension, const MeshOptions& options) {
-    // No format knows it, and read byte by byte it looks like an empty file of any of them.
-    if (extension != ".serialized" && extension != ".glb" &&
-        (source.bytes.starts_with("\xff\xfe") || source.bytes.starts_with("\xfe\xff")))
-        source.fail("is text in UTF-16; save it as UTF-8");
     if (extension == ".obj") return read_obj(source);
     if (extension == ".ply") return read_ply(source);
     if (extension == ".off") return read_off(source);
@@ -146,6 +156,7 @@ std::string read_bytes(const std::filesystem::path& path) {
 std::shared_ptr<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path,
                                  const MeshOptions& options) {
     const MeshSource source{bytes, path};
+    refuse_compressed(source);
     std::string extension = path.extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

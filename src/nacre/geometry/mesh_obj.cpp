@@ -1,64 +1,102 @@
-// Wavefront OBJ: v, vt, vn and f; groups, objects and materials are merged into one mesh, all else
-// is skipped. Read by our own hand: the library at hand takes the next corner's index for what is
-// missing in "1//", reads words that are no numbers as 0 and does not bear ten million triangles.
+// Wavefront OBJ (Wavefront Technologies 1992, The Advanced Visualizer, appendix B1): vertices,
+// texture coordinates, normals and faces, one pass over the text and no copy of it; a mesh of ten
+// million triangles bears little more. Materials, groups, points, lines and curves are passed over.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <utility>
 
+#include "nacre/geometry/mesh_polygon.h"
 #include "nacre/geometry/mesh_source.h"
-#include "nacre/geometry/polygon.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
 namespace {
 
-// Corners become vertices of the mesh: one for each position while
-// no face names texture coordinates or normals, later one for each combination (v, vt, vn).
-class ObjBuilder {
+// Statements and their words. Statements of numbers go on behind a backslash at the end of the
+// line; names and comments end with their line, as paths of Windows may end in a backslash.
+class ObjLines {
   public:
-    ObjBuilder(const MeshSource& source, const TextLines& lines)
-        : source_(source), lines_(lines), polygons_(mesh_) {}
+    explicit ObjLines(const MeshSource& source) : source_(source), text_(source, 0, 0) {}
 
-    void face(TextLines& line) {
-        corners_.clear();
-        for (std::string_view word = line.word(); !word.empty(); word = line.word()) {
-            const Corner c = corner(word);
-            if (!combined_ && (c.vt || c.vn)) combine();
-            corners_.push_back(combined_ ? vertex_of(c) : c.v - 1);
+    /// Goes to the next statement and hands over its keyword; false at the end of the file.
+    bool next(std::string_view& keyword) {
+        continues_ = false;
+        if (!text_.next_line()) return false;
+        keyword = text_.word();
+        return true;
+    }
+    std::size_t line() const { return text_.line(); }
+
+    std::string_view word() {
+        for (;;) {
+            if (std::exchange(continues_, false) && !text_.following_line()) return {};
+            std::string_view word = text_.word();
+            if (!word.ends_with('\\') || !text_.line_done()) return word;
+            continues_ = true;
+            word.remove_suffix(1);
+            if (!word.empty()) return word;
         }
-        polygons_.add(corners_);
-        ++faces_;
     }
 
-    Mesh finish() {
-        check(vertex_, positions.size(), "vertex", "vertices");
-        check(uv_, uvs.size(), "texture coordinate", "texture coordinates");
-        check(normal_, normals.size(), "normal", "normals");
-        if (!combined_) {
-            mesh_.positions = std::move(positions);
-            polygons_.cut();
-            return std::move(mesh_);
+    /// `least` to `most` numbers, which all must be finite; what follows them is passed over.
+    template <std::size_t N>
+    std::array<float, N> numbers(std::string_view keyword, std::size_t least) {
+        std::array<float, N> values{};
+        for (std::size_t i = 0; i < N; ++i) {
+            const std::string_view word = this->word();
+            if (word.empty()) {
+                if (i >= least) break;
+                source_.fail(line(),
+                             fmt::format("'{}' with {} numbers; it needs {}", keyword, i, least));
+            }
+            const auto value = parse_number(word);
+            if (!value || !std::isfinite(*value))
+                source_.fail(line(), fmt::format("'{}' is not a finite number", word));
+            values[i] = static_cast<float>(*value);
         }
-        first_of_ = {};
-        const bool any_uv = uv_.largest > 0, any_normal = normal_.largest > 0;
-        mesh_.positions.reserve(vertices_.size() + 1);
-        if (any_uv) mesh_.uvs.reserve(vertices_.size());
-        if (any_normal) mesh_.normals.reserve(vertices_.size());
-        for (const Entry& e : vertices_) {
-            mesh_.positions.push_back(positions[e.corner.v - 1]);
-            // Missing normals stay zero and are computed later.
-            if (any_uv) mesh_.uvs.push_back(e.corner.vt ? uvs[e.corner.vt - 1] : Vec2f{});
-            if (any_normal)
-                mesh_.normals.push_back(e.corner.vn ? normals[e.corner.vn - 1] : Vec3f{});
-        }
-        polygons_.cut();
-        return std::move(mesh_);
+        return values;
     }
 
-    std::vector<Point3f> positions;
-    std::vector<Vec3f> normals;
-    std::vector<Vec2f> uvs;
+  private:
+    const MeshSource& source_;
+    TextLines text_;
+    bool continues_ = false;
+};
+
+// Makes the mesh. Corners become vertices: one for each position while no face names texture
+// coordinates or normals, later one for each combination (v, vt, vn).
+class ObjReader {
+  public:
+    explicit ObjReader(const MeshSource& source) : source_(source), lines_(source) {}
+
+    Mesh read() {
+        std::string_view keyword;
+        while (lines_.next(keyword)) {
+            if (keyword == "v") {
+                const auto [x, y, z] = lines_.numbers<3>(keyword, 3);
+                positions_.emplace_back(x, y, z);
+            } else if (keyword == "vn") {
+                const auto [x, y, z] = lines_.numbers<3>(keyword, 3);
+                normals_.emplace_back(x, y, z);
+            } else if (keyword == "vt") {  // may be one number only
+                const auto [u, v] = lines_.numbers<2>(keyword, 1);
+                uvs_.push_back({u, v});
+            } else if (keyword == "f") {
+                face();
+            } else if (keyword == "surf" || keyword == "call") {
+                source_.fail(lines_.line(),
+                             keyword == "surf"
+                                 ? "free-form surfaces are not read; convert them to polygons "
+                                   "before the export"
+                                 : "'call' takes in another file, which is not done; export the "
+                                   "mesh into one file");
+            }
+        }
+        return finish();
+    }
 
   private:
     struct Corner {
@@ -76,46 +114,53 @@ class ObjBuilder {
         std::size_t line = 0;
     };
 
-    // v, v/vt, v//vn or v/vt/vn; a part that is empty, also at the end ("1//", "1/2/" are written
-    // by some programs), is absent.
-    Corner corner(std::string_view word) {
-        std::array<std::string_view, 3> parts;
-        std::size_t count = 0;
-        for (std::string_view rest = word;; ++count) {
-            const std::size_t slash = rest.find('/');
-            if (count == 3) fail_corner(word);
-            parts[count] = rest.substr(0, slash);
-            if (slash == rest.npos) break;
-            rest.remove_prefix(slash + 1);
+    void face() {
+        corners_.clear();
+        for (std::string_view word = lines_.word(); !word.empty(); word = lines_.word()) {
+            const Corner c = corner(word);
+            if (!combined_ && (c.vt || c.vn)) combine();
+            corners_.push_back(combined_ ? vertex_of(c) : c.v - 1);
         }
-        if (parts[0].empty()) fail_corner(word);
-        const Corner c{resolve(parts[0], word, positions.size(), vertex_),
-                       resolve(parts[1], word, uvs.size(), uv_),
-                       resolve(parts[2], word, normals.size(), normal_)};
+        polygons_.add(mesh_, corners_);
+        ++faces_;
+    }
+
+    // v, v/vt, v//vn or v/vt/vn; what is left empty, as in v// and v/vt/, is absent.
+    Corner corner(std::string_view word) {
+        std::string_view parts[3], rest = word;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t slash = i < 2 ? rest.find('/') : rest.npos;
+            parts[i] = rest.substr(0, slash);
+            rest.remove_prefix(std::min(parts[i].size() + 1, rest.size()));
+        }
+        if (parts[0].empty()) not_a_corner(word);
+        const Corner c{index(word, parts[0], positions_.size(), vertex_),
+                       index(word, parts[1], uvs_.size(), uv_),
+                       index(word, parts[2], normals_.size(), normal_)};
         if (c.v == 0)
             source_.fail(lines_.line(), "face names vertex 0; OBJ counts vertices from 1");
         return c;
     }
 
-    [[noreturn]] void fail_corner(std::string_view word) const {
+    [[noreturn]] void not_a_corner(std::string_view word) const {
         source_.fail(lines_.line(),
                      fmt::format("'{}' is not a corner; write v, v/vt, v//vn or v/vt/vn", word));
     }
 
-    // The file's numbers count from 1, or, if negative, backwards.
-    std::uint32_t resolve(std::string_view part, std::string_view word, std::size_t count,
-                          Largest& largest) {
+    // Numbers of the file run from 1, or are negative and count backwards.
+    std::uint32_t index(std::string_view word, std::string_view part, std::size_t count,
+                        Largest& largest) {
         if (part.empty()) return 0;
-        if (part.find_first_not_of("0123456789-+") != part.npos) fail_corner(word);
-        const std::optional<std::int64_t> index = integer_in(part);
-        if (!index && part.find_first_of("0123456789") == part.npos) fail_corner(word);
-        // What does not fit 64 bits is out of range, too. No file of n bytes holds n vertices: this
-        // bounds what an index can make us allocate.
-        const std::int64_t limit = std::min<std::int64_t>(source_.bytes.size(), 0xfffffffe);
-        const std::int64_t absolute = !index       ? -1
-                                      : *index < 0 ? std::int64_t(count) + 1 + *index
-                                                   : *index;
-        if (absolute < (index && *index == 0 ? 0 : 1) || absolute > limit)
+        if (part.starts_with('+') && !part.starts_with("+-")) part.remove_prefix(1);
+        std::int64_t number = 0;
+        const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+        if (stop != part.data() + part.size() || error == std::errc::invalid_argument)
+            not_a_corner(word);
+        const std::int64_t absolute =
+            number < 0 ? static_cast<std::int64_t>(count) + number + 1 : number;
+        // No file of n bytes holds n vertices: this bounds what an index can make us allocate.
+        const auto most = std::min<std::int64_t>(source_.bytes.size(), 0xfffffffe);
+        if (error != std::errc{} || (number < 0 && absolute < 1) || absolute > most)
             source_.fail(lines_.line(), fmt::format("face {} (counted from 1) has index {}, but {} "
                                                     "are defined before it",
                                                     faces_ + 1, part, count));
@@ -130,9 +175,36 @@ class ObjBuilder {
                                              l.largest, count, many));
     }
 
+    Mesh finish() {
+        check(vertex_, positions_.size(), "vertex", "vertices");
+        check(uv_, uvs_.size(), "texture coordinate", "texture coordinates");
+        check(normal_, normals_.size(), "normal", "normals");
+        if (combined_)
+            gather();
+        else
+            mesh_.positions = std::move(positions_);
+        polygons_.cut_concave(mesh_);
+        return std::move(mesh_);
+    }
+
+    void gather() {
+        first_of_ = {};
+        const bool any_uv = uv_.largest > 0, any_normal = normal_.largest > 0;
+        mesh_.positions.reserve(vertices_.size() + 1);
+        if (any_uv) mesh_.uvs.reserve(vertices_.size());
+        if (any_normal) mesh_.normals.reserve(vertices_.size());
+        for (const Entry& e : vertices_) {
+            mesh_.positions.push_back(positions_[e.corner.v - 1]);
+            // Missing normals stay zero and are computed later.
+            if (any_uv) mesh_.uvs.push_back(e.corner.vt ? uvs_[e.corner.vt - 1] : Vec2f{});
+            if (any_normal)
+                mesh_.normals.push_back(e.corner.vn ? normals_[e.corner.vn - 1] : Vec3f{});
+        }
+    }
+
     std::uint32_t vertex_of(const Corner& corner) {
         if (corner.v >= first_of_.size()) {
-            first_of_.reserve(positions.size() + 1);
+            first_of_.reserve(positions_.size() + 1);
             first_of_.resize(corner.v + 1, 0);
         }
         std::uint32_t* link = &first_of_[corner.v];
@@ -153,66 +225,22 @@ class ObjBuilder {
     }
 
     const MeshSource& source_;
-    const TextLines& lines_;
+    ObjLines lines_;
     Mesh mesh_;
-    PolygonList polygons_;
+    Polygons polygons_;
     bool combined_ = false;
     std::size_t faces_ = 0;
     Largest vertex_, uv_, normal_;
+    std::vector<Point3f> positions_;
+    std::vector<Vec3f> normals_;
+    std::vector<Vec2f> uvs_;
     std::vector<std::uint32_t> corners_;
     std::vector<std::uint32_t> first_of_;  ///< by position from 1: first vertex + 1, or 0
     std::vector<Entry> vertices_;
 };
 
-/// Lines whose rest is a name, which on one family of systems may end in a backslash: it is no
-/// continuation there.
-bool holds_a_name(std::string_view keyword) {
-    constexpr std::string_view kNames[] = {"mtllib", "usemtl", "g", "o", "usemap", "maplib"};
-    return std::ranges::find(kNames, keyword) != std::end(kNames);
-}
-
-/// The next number of the line; `i` of `needed` were read before it.
-float next_number(const MeshSource& source, TextLines& line, std::string_view keyword, int i,
-                  int needed) {
-    const std::string_view word = line.word();
-    if (word.empty())
-        source.fail(line.line(),
-                    fmt::format("'{}' with {} numbers; it needs {}", keyword, i, needed));
-    const std::optional<double> value = number_in(word);
-    // Infinity that is written as a number of too many digits is left to the check of the mesh.
-    const bool digits = word.find_first_not_of("0123456789+-.eE") == word.npos;
-    if (!value || !digits)
-        source.fail(line.line(), fmt::format("'{}' is not a finite number", word));
-    return static_cast<float>(*value);
-}
-
 }  // namespace
 
-Mesh read_obj(const MeshSource& source) {
-    TextLines line(source, 0, 0);
-    ObjBuilder builder(source, line);
-    const auto vector = [&](std::string_view keyword) {
-        Vec3f v;
-        for (int i = 0; i < 3; ++i) v[i] = next_number(source, line, keyword, i, 3);
-        return v;
-    };
-    while (line.next_line()) {
-        const std::string_view keyword = line.word();
-        if (holds_a_name(keyword)) continue;
-        line.join_continued();
-        if (keyword == "v") {
-            builder.positions.push_back(vector(keyword));
-        } else if (keyword == "vn") {
-            builder.normals.push_back(vector(keyword));
-        } else if (keyword == "vt") {  // one number is enough for a texture along a line
-            const float u = next_number(source, line, keyword, 0, 1);
-            const bool second = !line.line_done();
-            builder.uvs.push_back({u, second ? next_number(source, line, keyword, 1, 2) : 0.f});
-        } else if (keyword == "f") {
-            builder.face(line);
-        }
-    }
-    return builder.finish();
-}
+Mesh read_obj(const MeshSource& source) { return ObjReader(source).read(); }
 
 }  // namespace nacre

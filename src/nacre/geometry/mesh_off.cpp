@@ -3,8 +3,8 @@
 // vertex indices from 0, colour). http://www.geomview.org/docs/html/OFF.html
 #include <fmt/format.h>
 
+#include "nacre/geometry/mesh_polygon.h"
 #include "nacre/geometry/mesh_source.h"
-#include "nacre/geometry/polygon.h"
 
 namespace nacre {
 namespace {
@@ -16,25 +16,28 @@ struct Header {
 
 Header read_header(const MeshSource& source, TextLines& text) {
     if (!text.next_line()) source.fail("is empty; an OFF file begins with 'OFF'");
-    std::string_view keyword = text.word();
-    // Files of one widespread collection (ModelNet) go on without a blank: "OFF490 518 0".
-    std::string_view glued =
-        keyword.substr(std::min(keyword.find_last_not_of("0123456789") + 1, keyword.size()));
-    keyword.remove_suffix(glued.size());
-    std::string_view flags = keyword;
-    if (!flags.ends_with("OFF"))
-        source.fail(text.line(), fmt::format("begins with '{}{}'; an OFF file begins with 'OFF'",
-                                             keyword.substr(0, 20), glued.substr(0, 20)));
-    flags.remove_suffix(3);
+    const std::string_view keyword = text.word();
+    const std::size_t off = keyword.find("OFF");
+    // ModelNet's files have the first count right behind the keyword: OFF490 518 0.
+    std::string_view first = off == keyword.npos ? "" : keyword.substr(off + 3);
+    if (off == keyword.npos)
+        source.fail(text.line(), fmt::format("begins with '{}'; an OFF file begins with 'OFF'",
+                                             keyword.substr(0, 20)));
+    std::string_view flags = keyword.substr(0, off);
     Header header;
     if (flags.starts_with("ST")) header.uvs = true, flags.remove_prefix(2);
     if (flags.starts_with('C')) flags.remove_prefix(1);
     if (flags.starts_with('N')) header.normals = true, flags.remove_prefix(1);
-    if (!flags.empty())
+    const bool count_follows = first.empty() || (first[0] >= '0' && first[0] <= '9');
+    if (flags == "4" || flags == "n" || flags == "4n")
         source.fail(text.line(), fmt::format("'{}' has coordinates in other than three dimensions; "
                                              "save it as plain OFF",
                                              keyword.substr(0, 20)));
-    const std::string_view first = glued.empty() ? text.any_word() : glued;
+    if (!flags.empty() || !count_follows)
+        source.fail(text.line(), fmt::format("'{}' is not a header of OFF, which is written "
+                                             "[ST][C][N]OFF; save it as plain OFF",
+                                             keyword.substr(0, 20)));
+    if (first.empty()) first = text.any_word();
     if (first == "BINARY")
         source.fail(text.line(), "binary OFF is not read; save it as text, or as PLY");
     header.vertices = text.to_integer(first, "the number of vertices");
@@ -80,7 +83,7 @@ Mesh read_off(const MeshSource& source) {
             {static_cast<float>(text.to_number(words[words.size() - 2], "a texture coordinate")),
              static_cast<float>(text.to_number(words.back(), "a texture coordinate"))});
     }
-    PolygonList polygons(mesh);
+    Polygons polygons;
     std::vector<std::uint32_t> corners;
     for (std::int64_t i = 0; i < header.faces; ++i) {
         if (!text.next_line())
@@ -97,9 +100,9 @@ Mesh read_off(const MeshSource& source) {
                                         index, header.vertices - 1));
             corners.push_back(static_cast<std::uint32_t>(index));
         }
-        polygons.add(corners);
+        polygons.add(mesh, corners);
     }
-    polygons.cut();
+    polygons.cut_concave(mesh);
     return mesh;
 }
 

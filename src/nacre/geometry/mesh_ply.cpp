@@ -7,8 +7,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "nacre/geometry/mesh_polygon.h"
 #include "nacre/geometry/mesh_source.h"
-#include "nacre/geometry/polygon.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
 namespace {
@@ -70,28 +71,21 @@ Header read_header(const MeshSource& source) {
     header.body = byte_order_mark(text);
     if (text.substr(header.body, 3) != "ply")
         source.fail("is not a PLY file: it does not begin with 'ply'");
-    // Lines end as the first one does. Behind end_header a CR LF must not be taken for a CR and a
-    // first byte of binary data, nor the other way round.
-    const std::size_t first_end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line_end = text.substr(first_end, 2) == "\r\n" ? "\r\n"
-                                      : text.substr(first_end, 1) == "\r" ? "\r"
-                                                                          : "\n";
+    // The first line tells where lines end, as bytes of the body may look like a line end.
+    const std::size_t first_end = text.find_first_of("\r\n");
+    const bool cr_alone =
+        first_end != text.npos && text.substr(first_end, 2) != "\r\n" && text[first_end] == '\r';
     bool format_seen = false;
     while (true) {
         if (header.body >= text.size())
             source.fail(fmt::format(
                 "is truncated: no 'end_header' in its {} bytes; export it again", text.size()));
-        const std::size_t end = std::min(text.find(line_end, header.body), text.size());
+        const std::size_t end =
+            std::min(text.find(cr_alone ? '\r' : '\n', header.body), text.size());
         std::string_view rest = text.substr(header.body, end - header.body);
-        header.body = std::min(end + line_end.size(), text.size());
+        header.body = std::min(end + 1, text.size());
         const std::size_t line = ++header.lines;
-        const auto word = [&] {
-            const std::size_t from = std::min(rest.find_first_not_of(" \t\r"), rest.size());
-            const std::size_t to = std::min(rest.find_first_of(" \t\r", from), rest.size());
-            const std::string_view found = rest.substr(from, to - from);
-            rest.remove_prefix(to);
-            return found;
-        };
+        const auto word = [&] { return take_word(rest); };
         const std::string_view keyword = word();
         if (keyword == "end_header") break;
         if (keyword == "format") {
@@ -106,8 +100,13 @@ Header read_header(const MeshSource& source) {
         } else if (keyword == "element") {
             Element element;
             element.name = word();
-            const TextLines numbers(source, 0, line);
-            element.count = numbers.to_integer(word(), "the number of elements");
+            const std::string_view count = word();
+            const auto number = parse_integer(count);
+            if (!number)
+                source.fail(line, fmt::format("'{}' stands where the number of elements should be "
+                                              "an integer",
+                                              count));
+            element.count = *number;
             if (element.count < 0)
                 source.fail(line, fmt::format("element '{}' occurs {} times; a count cannot be "
                                               "negative",
@@ -260,22 +259,31 @@ void read_vertices(const MeshSource& source, Body& body, const Element& element,
     }
 }
 
+bool names_vertices(const Property& p) {
+    return p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
+}
+
 void read_faces(const MeshSource& source, Body& body, const Element& element, std::int64_t vertices,
-                Mesh& mesh, PolygonList& polygons) {
+                Mesh& mesh, Polygons& polygons) {
     const bool strips = element.name == "tristrips";
+    if (element.count > 0 &&
+        std::none_of(element.properties.begin(), element.properties.end(), names_vertices))
+        source.fail(
+            fmt::format("has element '{}' without a list 'vertex_indices'; export it with "
+                        "the corners of its faces",
+                        element.name));
     mesh.triangles.reserve(static_cast<std::size_t>(element.count));
     std::vector<std::uint32_t> corners;
     const auto finish = [&] {
         if (strips)
             add_strip(mesh, corners);
         else
-            polygons.add(corners);
+            polygons.add(mesh, corners);
         corners.clear();
     };
     for (body.index = 0; body.index < element.count; ++body.index) {
         for (const Property& property : element.properties) {
-            if (!property.list ||
-                (property.name != "vertex_indices" && property.name != "vertex_index")) {
+            if (!names_vertices(property)) {
                 skip(body, property);
                 continue;
             }
@@ -311,7 +319,7 @@ Mesh read_ply(const MeshSource& source) {
     if (vertices > 0xffffffffll)
         source.fail(fmt::format("has {} vertices; at most 2^32 - 1 can be indexed", vertices));
     Mesh mesh;
-    PolygonList polygons(mesh);
+    Polygons polygons;
     Body body(source, header);
     for (const Element& element : header.elements) {
         body.element = &element;
@@ -333,7 +341,7 @@ Mesh read_ply(const MeshSource& source) {
                 for (const Property& property : element.properties) skip(body, property);
         }
     }
-    polygons.cut();
+    polygons.cut_concave(mesh);
     return mesh;
 }
 

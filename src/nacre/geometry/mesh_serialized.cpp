@@ -97,6 +97,9 @@ std::string_view find_mesh(const MeshSource& source, int index, std::uint16_t& v
     if (value_at<std::uint16_t>(bytes, begin) != kMagic)
         source.fail(fmt::format("has no mesh header at byte {}; export it again", begin));
     version = value_at<std::uint16_t>(bytes, begin + 2);
+    if (version != 3 && version != 4)
+        source.fail(fmt::format("has version {} of the format for mesh {}; nacre reads 3 and 4",
+                                version, index));
     return bytes.substr(begin + 4, end - begin - 4);
 }
 

@@ -3,6 +3,7 @@
 // the same place are welded; the facet normals, which follow from the corners, are not read.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -30,6 +31,22 @@ Vec3f checked(const MeshSource& source, std::size_t line, std::size_t triangle, 
     return p;
 }
 
+// Binary files may begin with "solid", too, but hold control characters: the last byte of the
+// number of triangles is one of them in any file below 16 GB.
+bool is_text(std::string_view bytes) {
+    const std::string_view start = bytes.substr(0, 512);
+    if (std::any_of(start.begin(), start.end(),
+                    [](unsigned char c) { return c < ' ' && !is_blank(static_cast<char>(c)); }))
+        return false;
+    LineSplitter lines(bytes);
+    for (std::string_view line; lines.next(line);) {
+        line = without_comment(line);
+        const std::string_view word = take_word(line);
+        if (!word.empty()) return same_word(word.substr(0, 5), "solid");
+    }
+    return false;
+}
+
 Mesh read_text(const MeshSource& source) {
     TextLines text(source, 0, 0);
     Mesh mesh;
@@ -45,10 +62,8 @@ Mesh read_text(const MeshSource& source) {
                                                            "an STL file?",
                                                            found, wanted));
     };
-    bool open = false;
     for (std::string_view w = text.any_word(); !w.empty(); w = text.any_word()) {
         if (same_word(w, "solid") || same_word(w, "endsolid")) {
-            open = same_word(w, "solid");
             while (!text.word().empty()) {  // the rest of the line is a name
             }
             continue;
@@ -71,15 +86,8 @@ Mesh read_text(const MeshSource& source) {
         expect({"endloop", "endfacet"});
         mesh.triangles.push_back(t);
     }
-    if (open)
-        source.fail(text.line(), "the file ends where 'endsolid' should stand; export it again");
     mesh.positions = std::move(welder.points);
     return mesh;
-}
-
-/// Whether what begins with "solid" is text: the count and the numbers of binary files hold zeros.
-bool is_text(std::string_view bytes) {
-    return bytes.substr(0, kHeaderBytes + kTriangleBytes).find('\0') == bytes.npos;
 }
 
 Mesh read_binary(const MeshSource& source, std::size_t count) {
@@ -112,10 +120,7 @@ Mesh read_stl(const MeshSource& source) {
         if (bytes.size() == kHeaderBytes + count * kTriangleBytes)
             return read_binary(source, count);
     }
-    const std::size_t start = bytes.find_first_not_of(" \t\r\n", byte_order_mark(bytes));
-    if (start != std::string_view::npos && same_word(bytes.substr(start, 5), "solid") &&
-        is_text(bytes))
-        return read_text(source);
+    if (is_text(bytes)) return read_text(source);
     if (bytes.size() < kHeaderBytes)
         source.fail(fmt::format(
             "is neither text STL, which begins with 'solid', nor binary STL, whose header alone "
@@ -126,6 +131,11 @@ Mesh read_stl(const MeshSource& source) {
             fmt::format("is truncated: its header promises {} triangles ({} bytes), but it "
                         "has {} bytes; export it again",
                         count, kHeaderBytes + count * kTriangleBytes, bytes.size()));
+    if (count == 0 && bytes.size() >= kHeaderBytes + kTriangleBytes)
+        source.fail(
+            fmt::format("promises 0 triangles in its header, but {} bytes follow it; export "
+                        "it again",
+                        bytes.size() - kHeaderBytes));
     return read_binary(source, count);  // something after the triangles does no harm
 }
 

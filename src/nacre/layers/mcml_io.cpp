@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "nacre/math/error.h"
+#include "nacre/text/lines.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
 
@@ -20,30 +21,23 @@ constexpr double endless_cm = 1e6, written_endless_cm = 1e8;
 /// The lines of a file that hold anything but a comment, as words.
 class Lines {
   public:
-    Lines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+    Lines(std::string_view text, const std::string& name) : lines_(text), name_(name) {
+        if (is_utf16(text))
+            throw InputError(fmt::format(
+                "{}: is text in UTF-16, which is not read; save it as UTF-8 or ASCII", name));
+    }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(fmt::format("{}:{}: {}", name_, line_, what));
+        throw InputError(fmt::format("{}:{}: {}", name_, lines_.line(), what));
     }
 
     /// Whether there is another one, which then is the current.
     bool next() {
-        while (!rest_.empty()) {
-            const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-            std::string_view line = rest_.substr(0, end);
-            rest_.remove_prefix(std::min(end + 1, rest_.size()));
-            ++line_;
+        for (std::string_view line; lines_.next(line);) {
             words_.clear();
-            line = line.substr(0, line.find('#'));
-            constexpr std::string_view blanks = " \t\r\f\v";
-            for (;;) {
-                const std::size_t begin = line.find_first_not_of(blanks);
-                if (begin == std::string_view::npos) break;
-                line.remove_prefix(begin);
-                const std::size_t length = std::min(line.find_first_of(blanks), line.size());
-                words_.push_back(line.substr(0, length));
-                line.remove_prefix(length);
-            }
+            line = without_comment(line);
+            for (auto word = take_word(line); !word.empty(); word = take_word(line))
+                words_.push_back(word);
             if (!words_.empty()) return true;
         }
         return false;
@@ -60,11 +54,10 @@ class Lines {
 
     double number(std::size_t word, std::string_view what) const {
         const std::string_view w = words_[word];
-        double value = 0.;
-        const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
-        if (error != std::errc() || end != w.data() + w.size() || !std::isfinite(value))
+        const auto value = parse_number(w);
+        if (!value || !std::isfinite(*value))
             fail(fmt::format("{} is '{}', which is not a number", what, w));
-        return value;
+        return *value;
     }
     double number(std::size_t word, std::string_view what, double least) const {
         const double value = number(word, what);
@@ -78,17 +71,15 @@ class Lines {
     }
     std::uint64_t count(std::size_t word, std::string_view what, std::uint64_t most) const {
         const std::string_view w = words_[word];
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
-        if (error != std::errc() || end != w.data() + w.size() || value < 1 || value > most)
+        const auto value = parse_integer(w);
+        if (!value || *value < 1 || static_cast<std::uint64_t>(*value) > most)
             fail(fmt::format("{} is '{}'; it must be a whole number from 1 to {}", what, w, most));
-        return value;
+        return static_cast<std::uint64_t>(*value);
     }
 
   private:
-    std::string_view rest_;
+    LineSplitter lines_;
     const std::string& name_;
-    int line_ = 0;
     std::vector<std::string_view> words_;
 };
 

@@ -7,29 +7,27 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "nacre/math/frame.h"
 #include "nacre/scene/find_file.h"
 #include "nacre/scene/split_words.h"
 #include "nacre/spectrum/color.h"
+#include "nacre/text/lines.h"
+#include "nacre/text/number.h"
 
 namespace nacre {
 namespace {
 
 /// The whole of `text` as a finite number, or nothing.
-std::optional<double> parse_number(std::string_view text) {
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() ||
-        !std::isfinite(value))
-        return std::nullopt;
-    return value;
+std::optional<double> finite_number(std::string_view text) {
+    const auto value = parse_number(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 double number(const XmlElement& element, std::string_view text) {
-    if (const auto value = parse_number(text)) return *value;
+    if (const auto value = finite_number(text)) return *value;
     element.fail(fmt::format("'{}' is not a number", text));
 }
 
@@ -286,20 +284,23 @@ SceneValue read_value(const XmlElement& element, const ValueContext& context) {
 }
 
 ColorValue read_spectrum_file(const std::filesystem::path& file) {
-    std::ifstream stream(file);
+    std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(fmt::format("{}: cannot be opened", file.string()));
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (is_utf16(text))
+        throw InputError(fmt::format(
+            "{}: is text in UTF-16, which is not read; save it as UTF-8 or ASCII", file.string()));
     ColorValue color;
     color.kind = ColorValue::Kind::tabulated;
-    int line_number = 0;
+    LineSplitter lines(text);
     const auto fail = [&](const std::string& message) {
-        throw InputError(fmt::format("{}:{}: {}", file.string(), line_number, message));
+        throw InputError(fmt::format("{}:{}: {}", file.string(), lines.line(), message));
     };
-    for (std::string line; std::getline(stream, line);) {
-        ++line_number;
-        const auto tokens = split_words(std::string_view(line).substr(0, line.find('#')));
+    for (std::string_view line; lines.next(line);) {
+        const auto tokens = split_words(without_comment(line), ", \t\r\n\v\f");
         if (tokens.empty()) continue;
-        const auto nm = parse_number(tokens[0]);
-        const auto value = tokens.size() == 2 ? parse_number(tokens[1]) : std::nullopt;
+        const auto nm = finite_number(tokens[0]);
+        const auto value = tokens.size() == 2 ? finite_number(tokens[1]) : std::nullopt;
         if (!nm || !value) fail("expected a wavelength in nm and a value");
         color.nm.push_back(static_cast<float>(*nm));
         color.values.push_back(static_cast<float>(*value));
