@@ -189,6 +189,42 @@ TEST_F(LoadScene, InsideOutIsSaidAsFlipNormalsLeavesIt) {
     }
 }
 
+TEST_F(LoadScene, MediaThatMeetAreSaid) {
+    const auto box = [](double x, double scale = 1) {
+        return fmt::format(
+            R"(<shape type="cube"><transform name="to_world"><scale value="{}"/>
+            <translate x="{}"/></transform><bsdf type="dielectric"/>
+            <medium name="interior" type="homogeneous"/></shape>)",
+            scale, x);
+    };
+    const std::string names = "'cube' and 'cube' (shapes 0 and 1, counted from 0) have media and ";
+    const std::string overlap = names +
+                                "overlap: light is gained or lost where both are; let one end "
+                                "where the other begins";
+    const std::string touch = names +
+                              "touch face to face: light is gained or lost where two surfaces "
+                              "coincide; leave a gap or make them one";
+    const std::string camera = R"(<sensor type="perspective"><transform name="to_world">
+        <lookat origin="{0}, 0, 0" target="{0}, 0, 1" up="0, 1, 0"/></transform>{1}</sensor>)";
+    const auto found = [&](const std::string& body) {
+        std::string all;
+        for (const std::string& w : load(body).warnings)
+            if (w.find("medium") != w.npos || w.find("media") != w.npos) all += w;
+        return all;
+    };
+    const auto outside = fmt::format(fmt::runtime(camera), 9, "");
+    EXPECT_EQ(found(outside + box(-1.5) + box(1.5)), "");
+    EXPECT_EQ(found(outside + box(-1) + box(1)), touch);
+    EXPECT_EQ(found(outside + box(-0.75) + box(0.75)), overlap);
+    EXPECT_EQ(found(outside + box(0) + box(0, 0.5)), "") << "one wholly inside the other";
+    EXPECT_EQ(found(fmt::format(fmt::runtime(camera), 0, "") + box(0)),
+              "the camera stands in a medium but does not say so, and light reaches it as through "
+              "nothing: give the sensor that <medium>, by <ref>, too");
+    EXPECT_EQ(
+        found(fmt::format(fmt::runtime(camera), 0, R"(<medium type="homogeneous"/>)") + box(0)),
+        "");
+}
+
 TEST_F(LoadScene, ShiningShapesAreBlackByDefault) {
     const Scene scene = load(R"(<shape type="sphere"><emitter type="area"/></shape>
         <shape type="sphere"><point name="center" x="5"/></shape>)");
@@ -227,8 +263,8 @@ TEST_F(LoadScene, WavelengthDataAskForWavelengths) {
 }
 
 TEST_F(LoadScene, WarnsOfMediaThatCannotWork) {
-    const Scene scene = load(R"(<emitter type="constant"/><sensor type="perspective"/>
-        <medium type="homogeneous" id="m"/>
+    const Scene scene = load(R"(<emitter type="constant"/><sensor type="perspective">
+        <transform name="to_world"><translate z="9"/></transform></sensor><medium type="homogeneous" id="m"/>
         <shape type="rectangle" id="pane"><bsdf type="null"/><ref name="interior" id="m"/></shape>
         <shape type="sphere" id="ball"><ref name="interior" id="m"/></shape>
         <shape type="cube"><bsdf type="dielectric"/><ref name="interior" id="m"/></shape>)");

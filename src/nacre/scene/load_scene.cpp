@@ -178,6 +178,7 @@ Scene build_scene(const SceneNodePtr& tree, BuildContext& context, std::optional
 
     scene.mode = mode.value_or(any_spectral(scene) ? ColorMode::spectral : ColorMode::rgb_bands);
     scene.warnings = context.warnings;
+    warn_about_media(scene);
     return scene;
 }
 

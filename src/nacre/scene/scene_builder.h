@@ -35,6 +35,10 @@ void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
 void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_material, Scene& scene,
                      BuildContext& context);
 
+/// Adds warnings of a camera in a medium that it does not name, and of closed shapes with media
+/// that overlap or touch face to face. Looks at samples: a small overlap may pass.
+void warn_about_media(Scene& scene);
+
 /// Builds everything. `mode` unset: RGB bands unless something in the scene is spectral.
 Scene build_scene(const SceneNodePtr& root, BuildContext& context, std::optional<ColorMode> mode);
 
