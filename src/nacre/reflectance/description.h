@@ -51,7 +51,7 @@ enum class Energy {
 /// Of what parameters a claim speaks, where not of all that are allowed.
 struct Condition {
     std::string_view parameter;
-    double low = 0., high = 1.;     ///< within these, ends included
+    double low = 0., high = 1.;     ///< within these, ends included; of a choice, its position
     std::string_view same_as = "";  ///< or as large as this other parameter
 };
 

@@ -76,7 +76,7 @@ const ModelDescription& he_torrance_description() {
               .high = 1e6}},
         .behaviours =
             {{.options = "parallel=0.5",
-              .energy_note = "for kd = 0, to 2e-4 for facets that reflect everything; kd is "
+              .energy_note = "for kd = 0, to 1e-3 for facets that reflect everything; kd is "
                              "added without taking anything from the highlight (albedo 1.87 for "
                              "kd=1 n=1.3 k=1.3), so keep it below what facets do not reflect; "
                              "clearly less than it gets "
