@@ -9,6 +9,7 @@
 #include "nacre/layers/interfaces.h"
 #include "nacre/layers/kubelka_munk.h"
 #include "nacre/layers/slab_monte_carlo.h"
+#include "nacre/math/error.h"
 
 namespace nacre::cli {
 namespace {
@@ -152,6 +153,33 @@ void compare_half_space(const json& group, Comparison& result) {
     }
 }
 
+/// Width of bins whose multiples all edges are, to a millionth of the last edge.
+double common_width(const std::vector<double>& edges) {
+    double first = edges.front();
+    for (std::size_t i = 1; i < edges.size(); ++i)
+        if (!(edges[i] > edges[i - 1])) throw InputError("\"r_edges\" must ascend");
+    if (!(first >= 0.)) throw InputError("\"r_edges\" must not be negative");
+    const double least = 1e-6 * edges.back();
+    double width = 0.;
+    for (double edge : edges) {
+        // Euclid's algorithm; what is left over by rounding is nothing.
+        double a = std::max(edge, width), b = std::min(edge, width);
+        while (b > least) {
+            const double rest = std::abs(a - b * std::round(a / b));
+            a = b;
+            b = rest;
+        }
+        width = a;
+    }
+    constexpr double most = 10000.;
+    if (!(edges.back() <= most * width * (1. + 1e-9)))
+        throw InputError(fmt::format(
+            "\"r_edges\" have no common width of at least a {:g}th of the last, {:g} mm; "
+            "round them",
+            most, edges.back()));
+    return width;
+}
+
 void compare_monte_carlo(const json& group, Comparison& result) {
     int number = 0;
     for (const json& row : group) {
@@ -163,11 +191,10 @@ void compare_monte_carlo(const json& group, Comparison& result) {
         SlabMonteCarloOptions options;
         options.photons = 400'000;
         options.cosine = cosine_of(row.at("theta_i"));
-        // The vectors' rings are multiples of the first.
         const std::vector<double> edges = row.value("r_edges", std::vector<double>{});
         if (edges.size() > 1) {
-            options.bins.radius_width = edges[1];
-            options.bins.radius = int(std::lround(edges.back() / edges[1]));
+            options.bins.radius_width = common_width(edges);
+            options.bins.radius = int(std::lround(edges.back() / options.bins.radius_width));
         }
         const SlabMonteCarloResult r = slab_monte_carlo(stack, options);
         const std::string where = fmt::format("run {}", number++);
@@ -188,7 +215,9 @@ void compare_monte_carlo(const json& group, Comparison& result) {
         for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
             // Means of the bins that make up the ring, by their areas: 1, 3, 5, ... times the
             // first.
-            const auto bin = [&](double edge) { return std::size_t(std::lround(edge / edges[1])); };
+            const auto bin = [&](double edge) {
+                return std::size_t(std::lround(edge / options.bins.radius_width));
+            };
             double sum = 0., square = 0., area = 0.;
             for (std::size_t b = bin(edges[i]); b < bin(edges[i + 1]); ++b) {
                 const double a = double(2 * b + 1);

@@ -25,7 +25,7 @@ constexpr double tolerance = 1e-6;
 struct Options {
     std::string model, vectors;
     std::uint64_t seed = 1;
-    int samples = 40000;
+    int samples = 40000, random_sets = 0;
 };
 
 struct GroupResult {
@@ -157,6 +157,7 @@ int check_models(const Options& o) {
         CheckOptions options;
         options.seed = o.seed;
         options.samples = o.samples;
+        options.random_sets = o.random_sets;
         for (const CheckOutcome& c : check_model(evaluator, options))
             report(c.passed, c.name, c.detail);
     }
@@ -180,6 +181,8 @@ Action set_up_check(CLI::App& app, const Invocation&) {
                    "tolerance of a group): largest deviation per group");
     add_seed(app, o->seed, "of the samplers' random numbers (1)");
     add_whole(app, "--samples", o->samples, 1000, 100'000'000, "per chi-square test (40000)");
+    add_whole(app, "--random", o->random_sets, 0, 100000,
+              "also tries so many sets of random parameters, near grazing too, for each claim (0)");
     return [o] { return run(*o); };
 }
 

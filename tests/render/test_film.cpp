@@ -14,6 +14,7 @@ FilmSettings film_settings(int width, int height, const std::string& filter = "b
     s.width = width;
     s.height = height;
     s.filter.type = filter;
+    s.sample_border = true;  // the whole filter at every pixel
     return s;
 }
 
@@ -176,6 +177,48 @@ TEST(Filter, SamplesAverageToTheFilteredPicture) {
         EXPECT_GT(error, 0.0);
         EXPECT_NEAR(film.mean(0, 0).x - 2, exact, 5 * error) << type;
     }
+}
+
+/// Off the border a window changes nothing; at it samples stay on the film, and a constant picture
+/// stays constant.
+TEST(Filter, SamplesAtTheBorderStayOnTheFilm) {
+    for (const std::string& type : filters) {
+        FilmSettings settings = film_settings(12, 12, type);
+        settings.sample_border = false;
+        const Filter filter(settings.filter);
+        Film film(settings);
+        Random random(3);
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 12; ++x)
+                for (int i = 0; i < 64; ++i) {
+                    const Vec2f u = random.next2();
+                    const FilterSample s = filter.sample(u, filter_window(settings, x, y));
+                    const float at_x = float(x) + 0.5f + s.offset.x,
+                                at_y = float(y) + 0.5f + s.offset.y;
+                    ASSERT_TRUE(at_x >= 0.f && at_x <= 12.f && at_y >= 0.f && at_y <= 12.f)
+                        << type << " " << x << " " << y;
+                    if (x >= 2 && x < 10 && y >= 2 && y < 10) {
+                        ASSERT_EQ(s.offset.x, filter.sample(u).offset.x);
+                        ASSERT_EQ(s.offset.y, filter.sample(u).offset.y);
+                    }
+                    film.add(x, y, i, {1.f, 1.f, 1.f}, s.weight);
+                }
+        for (int i = 0; i < 12; ++i) ASSERT_FLOAT_EQ(film.mean(i, 0).x, 1.f) << type;
+    }
+}
+
+/// By hand: a tent of radius 1 at the left border keeps x > -1/2; its mean is
+/// (1/6 - 1/12) / (7/8) = 2/21.
+TEST(Filter, TheMeanOfATentCutAtTheBorderIsThatByHand) {
+    FilmSettings settings = film_settings(8, 8, "tent");
+    settings.sample_border = false;
+    const Filter filter(settings.filter);
+    Random random(4);
+    double sum = 0;
+    const int n = 100000;
+    for (int i = 0; i < n; ++i)
+        sum += filter.sample(random.next2(), filter_window(settings, 0, 4)).offset.x;
+    EXPECT_NEAR(sum / n, 2. / 21, 5 * 0.36 / std::sqrt(n));
 }
 
 /// Pixels of many short runs: their mean is the expectation and their scatter is what

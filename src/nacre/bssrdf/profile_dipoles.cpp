@@ -9,10 +9,11 @@ namespace nacre {
 namespace {
 
 Parameter boundary_option() {
-    return choice_parameter("boundary", "which reflectance enters the boundary parameter A",
-                            {{"fit", "one moment by the fit of Jensen et al. 2001"},
-                             {"exact", "one moment, exact"},
-                             {"two_moment", "two moments, exact"}});
+    return choice_parameter(
+        "boundary", "which reflectance enters the boundary parameter A",
+        {{"fit", "one moment by the fit of Jensen et al. 2001, eta from 0.4 to 3"},
+         {"exact", "one moment, exact"},
+         {"two_moment", "two moments, exact"}});
 }
 
 // Dipole and BetterDipole have one face.
@@ -95,7 +96,8 @@ const ProfileDescription& better_dipole_profile() {
         .single_scattering = "left out; to be added",
         .options = {choice_parameter(
             "moments", "where the Fresnel moments come from",
-            {{"exact", "quadrature"}, {"fit", "polynomials of d'Eon and Irving 2011"}})},
+            {{"exact", "quadrature"},
+             {"fit", "polynomials of d'Eon and Irving 2011, eta from 0.25 to 2.5"}})},
         .errata = {"The factor is alpha'^2; with alpha' the source would count light that was "
                    "scattered once only."},
         .make = [](const ProfileMedium& m,

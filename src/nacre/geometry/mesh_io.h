@@ -11,8 +11,8 @@
 //   .serialized   Mitsuba's compressed meshes, versions 3 and 4
 //
 // Text may begin with a byte order mark and end its lines in LF, CR LF or CR. Polygons are cut into
-// triangles that stay within them, concave ones too (mesh_polygon.h). Triangles two of whose corners
-// coincide, and faces of fewer than three corners, are left out and counted in
+// triangles that stay within them, concave ones too (mesh_polygon.h). Triangles two of whose
+// corners coincide, and faces of fewer than three corners, are left out and counted in
 // Mesh::dropped_triangles; triangles that are merely flat stay, since leaving them out would open a
 // closed surface (rays never hit them). Normals that are missing, zero or not finite in a mesh that
 // has others are computed (compute_normals). Vertices that no face uses stay in position-only

@@ -1,7 +1,10 @@
 #include "nacre/optics/fresnel_moments.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "nacre/math/error.h"
 #include "nacre/math/quadrature.h"
 #include "nacre/optics/fresnel.h"
 
@@ -87,8 +90,27 @@ double three_c2_fit(double eta) {
            polynomial(eta, {0., 1213.67, -568.556, 164.798, -27.0181, 1.91826});
 }
 
+void check_reflectance_fit(double eta) {
+    if (!(eta >= 0.4 && eta <= 3.))
+        throw InputError(
+            fmt::format("the fit of diffuse Fresnel reflectance of Jensen et al. 2001 holds for "
+                        "relative indices eta from 0.4 to 3, not {:g}; use the exact reflectance, "
+                        "--set boundary=exact, or a profile without the fit, such as better_dipole",
+                        eta));
+}
+
+void check_moment_fits(double eta) {
+    if (!(eta >= 0.25 && eta <= 2.5))
+        throw InputError(
+            fmt::format("the fits of Fresnel moments of d'Eon and Irving 2011 hold for relative "
+                        "indices eta from 0.25 to 2.5, not {:g}; use the exact moments: --set "
+                        "moments=exact",
+                        eta));
+}
+
 double boundary_parameter(double eta, BoundaryModel model) {
     if (eta == 1.) return 1.;
+    if (model == BoundaryModel::fit) check_reflectance_fit(eta);
     const double one = model == BoundaryModel::fit ? diffuse_reflectance_fit(eta)
                                                    : diffuse_reflectance_internal(eta);
     const double other = model == BoundaryModel::two_moment ? 3. * fresnel_moment(2, eta) : one;

@@ -53,6 +53,8 @@ inline const ModelDescription& blinn_torrance_sparrow_description() {
                   .energy_note =
                       "for ks <= D_n/4, where D_n, the peak of the normalised density, is "
                       "(Ns+2)/(2 pi) or 1/(pi C2^2)",
+                  .conditions = {{.parameter = "beta", .high = 15.},
+                                 {.parameter = "kd", .high = 0.5}},
                   .examples = {"kd=0 distribution=phong beta=20 fresnel=one",
                                "kd=0 distribution=torrance_sparrow beta=10 n=1.8",
                                "kd=0.3 distribution=trowbridge_reitz beta=15"}},

@@ -3,6 +3,7 @@
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
 #include "nacre/reflectance/albedo.h"
+#include "nacre/reflectance/check_random.h"
 
 namespace nacre {
 namespace {
@@ -143,7 +144,7 @@ Verdict check_furnace(const std::vector<Case>& cases, const Behaviour& behaviour
             verdict.say(std::isfinite(f) && f >= 0.,
                         fmt::format("a value of {}, {}", f, c.settings));
         }
-        for (double angle : {0., 30., 60., 80., 89.}) {
+        for (double angle : {0., 30., 60., 80., 89., 89.9}) {
             const double a = whole_albedo(c.model, incident(angle), error);
             largest = std::max(largest, a);
             const auto text = fmt::format("albedo {:.6f} at {} degrees, {}", a, angle, c.settings);
@@ -156,8 +157,12 @@ Verdict check_furnace(const std::vector<Case>& cases, const Behaviour& behaviour
         for (Setting& w : parse_settings(behaviour.witness)) s.push_back(std::move(w));
         const double a =
             whole_albedo(AnyModel(evaluator, s), incident(behaviour.witness_degrees), error);
-        verdict.say(a > 1. + error, fmt::format("albedo {:.6f} at {} degrees, {}; said to exceed 1",
-                                                a, behaviour.witness_degrees, behaviour.witness));
+        verdict.say(a > 1. + error && (behaviour.at_most == 0. || a <= behaviour.at_most + error),
+                    fmt::format("albedo {:.6f} at {} degrees, {}; said to exceed 1{}", a,
+                                behaviour.witness_degrees, behaviour.witness,
+                                behaviour.at_most > 0.
+                                    ? fmt::format(" and to stay below {:g}", behaviour.at_most)
+                                    : ""));
     } else if (verdict.passed) {
         verdict.detail = fmt::format("largest albedo {:.6f}", largest);
     }
@@ -253,6 +258,10 @@ std::vector<CheckOutcome> check_model(const Evaluator& evaluator, const CheckOpt
         add("reciprocity", check_reciprocity(cases, b.reciprocal));
         add("horizon", check_horizon(cases));
         if (const auto v = check_albedo(cases)) add("albedo", *v);
+        if (options.random_sets <= 0) continue;
+        CheckOutcome tried = check_random_parameters(evaluator, b, options);
+        tried.name = fmt::format("{}: random parameters", name);
+        outcomes.push_back(std::move(tried));
     }
     return outcomes;
 }

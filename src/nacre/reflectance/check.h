@@ -17,6 +17,7 @@ struct CheckOutcome {
 struct CheckOptions {
     std::uint64_t seed = 1;
     int samples = 40000;  ///< a chi-square test
+    int random_sets = 0;  ///< sets of random parameters, a behaviour; 0: none
     /// Probability that some sampling test of the model fails although its sampler is right.
     double significance = 0.001;
 };
@@ -30,6 +31,7 @@ struct CheckOptions {
 /// - reciprocity: largest relative difference over 200 random pairs, at most 1e-9 if claimed, and
 ///   more than 1e-2 if denied;
 /// - horizon: exactly 0 if either direction is below it;
+/// - random parameters: see check_random.h;
 /// - albedo: the closed form against quadrature, if there is one.
 std::vector<CheckOutcome> check_model(const Evaluator& evaluator, const CheckOptions& options = {});
 

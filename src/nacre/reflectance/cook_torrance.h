@@ -111,6 +111,7 @@ inline const ModelDescription& cook_torrance_description() {
             .behaviours =
                 {{.options = "convention=normalized",
                   .energy_note = "for kd + ks <= 1, with any masking but none",
+                  .conditions = {{.parameter = "masking", .high = 3.}},
                   .examples =
                       {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.2 ks=0.8 width=half_height beta=15",
                        "kd=0.3 ks=0.7 distribution=gauss m=0.4 masking=smith n=1.8",

@@ -48,6 +48,13 @@ enum class Energy {
     exceeds,    ///< somewhere the albedo is above 1
 };
 
+/// Of what parameters a claim speaks, where not of all that are allowed.
+struct Condition {
+    std::string_view parameter;
+    double low = 0., high = 1.;     ///< within these, ends included; of a choice, its position
+    std::string_view same_as = "";  ///< or as large as this other parameter
+};
+
 /// How the model behaves with given options, as claims that the checks put to the test.
 struct Behaviour {
     std::string_view options = "";  ///< settings that choose it, "variant=classic"; empty: always
@@ -57,6 +64,8 @@ struct Behaviour {
     /// exceeds: settings, and the angle of incidence in degrees, at which the albedo is above 1.
     std::string_view witness = "";
     double witness_degrees = 0.;
+    double at_most = 0.;                     ///< exceeds: no albedo is above this; 0: not said
+    std::vector<Condition> conditions = {};  ///< of which parameters the claims speak; empty: all
     /// Settings (beside the options) at which the checks look; at least one.
     std::vector<std::string_view> examples = {};
 };

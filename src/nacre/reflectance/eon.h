@@ -82,7 +82,8 @@ struct Eon {
         const D s = wi.x * wo.x + wi.y * wo.y;
         const D larger = at_least(select(wi.z > wo.z, wi.z, wo.z), 1e-10);
         const D q = select(s > D(0), D(s / larger), s);
-        const T single = T(D(1) * scale()) + T(scale() * roughness * q);
+        // Not below 0 by rounding, between opposite directions at the horizon.
+        const T single = at_least(T(T(D(1) * scale()) + T(scale() * roughness * q)), 0.);
         if (variant == EonVariant::fujii) return T(gate * single) * reflectance;
         // Without roughness nothing is lost: 0/0 in the quotient, whose limit is 0.
         const T lost = T((T(D(1)) - albedo_of_white(wi)) * (T(D(1)) - albedo_of_white(wo))) /
@@ -113,7 +114,7 @@ struct Eon {
     /// E: with (q/m)(1 - q^3) = q m (1 + q + q^2)/(1 + q), which does not cancel at grazing angles.
     T albedo_of_white(const Vec3<D>& w) const {
         using std::atan2, std::sqrt;
-        const D m = at_least(w.z, 0.), q = sqrt(w.x * w.x + w.y * w.y);
+        const D m = at_least(w.z, 1e-20), q = sqrt(w.x * w.x + w.y * w.y);
         const D tail = q * m * (D(1) + q + q * q) / (D(1) + q) - q;
         const D gamma = q * (atan2(q, m) - q * m) + D(2. / 3.) * tail;
         return T(D(1) * scale()) + T(scale() * roughness * D(D(inv_pi) * gamma));

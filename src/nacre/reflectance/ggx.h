@@ -28,7 +28,8 @@ struct Ggx {
     /// Density of facet normals, sr^-1; 0 below the horizon.
     Value density(const Vec3<D>& h) const {
         const Value x = h.x / alpha_x, y = h.y / alpha_y;
-        const Value r = x * x + y * y + h.z * h.z;
+        // At least 0.4 for a unit vector; the half vector of opposite directions is none.
+        const Value r = at_least(Value(x * x + y * y + h.z * h.z), 1e-6);
         const D upper = select(h.z > D(0), D(1), D(0));
         return upper / (D(std::numbers::pi) * alpha_x * alpha_y * (r * r));
     }

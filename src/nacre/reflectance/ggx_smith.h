@@ -82,11 +82,17 @@ inline const ModelDescription& ggx_smith_description() {
                        "kd=0.3 ks=0.6 alpha_u=0.1 alpha_v=0.5 fresnel=conductor n=0.2 k=3.4",
                        "kd=0.5 ks=0.5 alpha=0.3 n=1.5"}},
                  {.options = "compensation=kulla_conty masking=smith_correlated",
-                  .energy_note = "for kd + ks <= 1; to 1e-6 all of it for fresnel=one",
+                  .energy_note =
+                      "for kd + ks <= 1 and alpha_u = alpha_v; to 1e-6 all of it for fresnel=one. "
+                      "Anisotropic facets get what isotropic ones of alpha = sqrt(alpha_u alpha_v) "
+                      "lose: albedo 1.058 at 88 degrees for alpha_u=0.01 alpha_v=0.1 fresnel=one",
+                  .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
                   .examples = {"fresnel=schlick f0=0.9 alpha=0.5", "fresnel=schlick f0=0.6 alpha=1",
                                "kd=0.3 ks=0.6 alpha=0.3 fresnel=conductor n=0.2 k=3.4"}},
                  {.options = "compensation=slides masking=smith_correlated",
-                  .energy_note = "for kd + ks <= 1; brighter than facets of that colour can be",
+                  .energy_note = "for kd + ks <= 1 and alpha_u = alpha_v, as kulla_conty; "
+                                 "brighter than facets of that colour can be",
+                  .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
                   .examples = {"fresnel=schlick f0=0.5 alpha=0.8"}}},
             .isotropy = "isotropic for alpha_u = alpha_v, else anisotropic",
             .sampling =

@@ -74,20 +74,23 @@ const ModelDescription& he_torrance_description() {
               .kind = ParameterKind::wavelength,
               .unit = "nm",
               .high = 1e6}},
-        .behaviours = {{.options = "parallel=0.5",
-                        .energy_note =
-                            "to 2e-4 for facets that reflect everything; clearly less than it gets "
-                            "at grazing incidence, where light scatters more than once",
-                        .examples = {"sigma0=0.18 tau=3", "sigma0=0.05 tau=1 n=0.2 k=3.4",
-                                     "sigma0=0.5 tau=2.5 n=1.5 k=0 kd=0.3",
-                                     "sigma0=0.2 tau=2 n=0.2 k=3.4",
-                                     "shadowing=printed sigma0=0.2 tau=1 n=0.2 k=3.4"}},
-                       {.options = "parallel=1",
-                        .reciprocal = false,
-                        .energy_note =
-                            "as for natural light; the polarisation is that of the light, so "
-                            "exchanging the directions asks another question",
-                        .examples = {"sigma0=0.2 tau=1.5 n=1.5 k=0"}}},
+        .behaviours =
+            {{.options = "parallel=0.5",
+              .energy_note = "for kd = 0, to 1e-3 for facets that reflect everything; kd is "
+                             "added without taking anything from the highlight (albedo 1.87 for "
+                             "kd=1 n=1.3 k=1.3), so keep it below what facets do not reflect; "
+                             "clearly less than it gets "
+                             "at grazing incidence, where light scatters more than once",
+              .conditions = {{.parameter = "kd", .high = 0.}},
+              .examples = {"sigma0=0.18 tau=3", "sigma0=0.05 tau=1 n=0.2 k=3.4",
+                           "sigma0=0.5 tau=2.5 n=1.5 k=0 kd=0.3", "sigma0=0.2 tau=2 n=0.2 k=3.4",
+                           "shadowing=printed sigma0=0.2 tau=1 n=0.2 k=3.4"}},
+             {.options = "parallel=1",
+              .reciprocal = false,
+              .energy_note = "as for natural light; the polarisation is that of the light, so "
+                             "exchanging the directions asks another question",
+              .conditions = {{.parameter = "kd", .high = 0.}},
+              .examples = {"sigma0=0.2 tau=1.5 n=1.5 k=0"}}},
         .sampling =
             "one-sample mixture of the cosine and v_xy from the sum's normal "
             "distributions, j Poisson distributed with the g of the mirror direction; one "

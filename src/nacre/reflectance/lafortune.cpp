@@ -55,6 +55,19 @@ void add_lobe(std::vector<Parameter>& parameters, int lobe, const LobeKeys& keys
     }
 }
 
+/// Parameters of which |M w| <= 1 and kd + ks + ks2 + ks3 <= 1 hold, whatever is drawn of them.
+std::vector<Condition> matrices_that_shrink() {
+    std::vector<Condition> all{{.parameter = "kd", .high = 0.1}};
+    for (int lobe = 0; lobe < 3; ++lobe) {
+        all.push_back({.parameter = lafortune_names[lobe][0], .high = 0.3});
+        for (int i = 1; i < 7; ++i) {
+            const double size = i < 4 ? 0.6 : 0.2;
+            all.push_back({.parameter = lafortune_names[lobe][i], .low = -size, .high = size});
+        }
+    }
+    return all;
+}
+
 /// The reference vectors give lobes without weights, and matrices as nine numbers.
 void adapt_vector(std::vector<Setting>& settings) {
     const auto given = [&](std::string_view name) {
@@ -102,6 +115,7 @@ const ModelDescription& lafortune_description() {
             .behaviours =
                 {{.options = "norm=normal",
                   .energy_note = "for kd + ks + ks2 + ks3 <= 1 and |M w| <= 1",
+                  .conditions = matrices_that_shrink(),
                   .examples =
                       {"kd=0 ks=1 n=20", "kd=0 ks=1 n=5 cz=0.7",
                        "kd=0.3 ks=0.6 n=8 cx=0.9 cy=0.9 cz=0.9", "kd=0 ks=1 cx=0 cy=0 n=1.5",
@@ -109,6 +123,7 @@ const ModelDescription& lafortune_description() {
                        "kd=0 ks=0.4 ks2=0.3 ks3=0.3 cx2=-0.8 cy3=-0.7 n3=3"}},
                  {.options = "norm=density",
                   .energy_note = "as normal; ks (n+1)/(n+2) at normal incidence",
+                  .conditions = matrices_that_shrink(),
                   .examples = {"kd=0 ks=1 n=20 mirror=1"}},
                  {.options = "norm=none",
                   .energy = Energy::exceeds,

@@ -49,13 +49,19 @@ inline const ModelDescription& oren_nayar_description() {
                         .otherwise = 0.3}},
         .behaviours = {{.options = "variant=full",
                         .energy = Energy::exceeds,
-                        .energy_note = "by 2 % for rho = 1 at grazing incidence; conserves for "
-                                       "rho <= 0.9",
+                        .energy_note = "by 2 % at 80 degrees and 5 % at 89.9 for rho = 1, sigma = "
+                                       "0.3; conserves for rho <= 0.9",
                         .witness = "reflectance=1 sigma=0.3",
-                        .witness_degrees = 80.,
+                        .witness_degrees = 89.9,
+                        .at_most = 1.1,
                         .examples = {"reflectance=0.8 sigma=0.3", "reflectance=0.9 sigma=1"}},
                        {.options = "variant=qualitative",
-                        .energy_note = "the albedo at normal incidence is rho A",
+                        .energy = Energy::exceeds,
+                        .energy_note = "by 0.7 % at 80 degrees for rho = 1, sigma = 0.18; the "
+                                       "albedo at normal incidence is rho A",
+                        .witness = "reflectance=1 sigma=0.18",
+                        .witness_degrees = 80.,
+                        .at_most = 1.03,
                         .examples = {"reflectance=0.8 sigma=0.3", "reflectance=1 sigma=1"}}},
         .sampling = "proportional to the cosine",
         .albedo = "qualitative: rho A at normal incidence",

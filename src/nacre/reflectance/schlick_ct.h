@@ -54,6 +54,7 @@ inline const ModelDescription& schlick_ct_description() {
                         .aliases = {"alpha"}}},
         .behaviours = {{.options = "convention=normalized",
                         .energy_note = "for kd + albedo of the highlight <= 1",
+                        .conditions = {{.parameter = "kd", .high = 0.}},
                         .examples = {"kd=0 f0=1 m=0.3", "kd=0.2 f0=0.5 m=0.6", "kd=0 f0=0.9 m=0.15",
                                      "kd=0 f0=1 m=0.3 masking=consistent"}},
                        {.options = "convention=literal",

@@ -48,6 +48,7 @@ inline const ModelDescription& torrance_sparrow_description() {
                                "kd=0 ks=1 m=0.1 fresnel=conductor n=0.2 k=3.4 parallel=0.9"}},
                  {.options = "convention=peak",
                   .energy_note = "as long as C = 1 is below the normalised one, m < 0.39",
+                  .conditions = {{.parameter = "m", .high = 0.39}},
                   .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.3 ks=0.7 m=0.3 n=1.8"}}},
             .sampling =
                 "one-sample mixture of the cosine and mirrored normals, whose angles have "

@@ -34,10 +34,18 @@ Film::Film(const FilmSettings& settings)
                         s.crop_y, s.crop_width, s.crop_height, s.width, s.height));
     width_ = s.crop_width;
     height_ = s.crop_height;
-    absolute_integral_ = Filter(s.filter).absolute_integral();
+    const Filter filter(s.filter);
+    for (int x = 0; x < width_; ++x) {
+        const FilterWindow w = filter_window(s, x + s.crop_x, s.crop_y);
+        column_absolute_.push_back(filter.absolute_integral(w.low.x, w.high.x));
+    }
+    for (int y = 0; y < height_; ++y) {
+        const FilterWindow w = filter_window(s, s.crop_x, y + s.crop_y);
+        row_absolute_.push_back(filter.absolute_integral(w.low.y, w.high.y));
+    }
     pixels_.resize(std::size_t(width_) * height_);
     // A lobe that is negative by rounding alone is none.
-    if (absolute_integral_ > 1 + 1e-6) negative_.resize(pixels_.size());
+    if (filter.absolute_integral() > 1 + 1e-6) negative_.resize(pixels_.size());
 }
 
 void Film::add(int x, int y, std::uint32_t sample, const Vec3f& rgb, float filter_weight,
@@ -79,7 +87,8 @@ Vec3f Film::mean(int x, int y) const {
             const Sums& n = negative_[index(x, y)];
             // With samples of one kind only the other lobe is taken to look the same.
             const double plus = p.count ? mean : n.mean(c), minus = n.count ? n.mean(c) : plus;
-            mean = 0.5 * (absolute_integral_ + 1) * plus - 0.5 * (absolute_integral_ - 1) * minus;
+            const double w = absolute_integral(x, y);
+            mean = 0.5 * (w + 1) * plus - 0.5 * (w - 1) * minus;
         }
         r[c] = static_cast<float>(mean);
     }
@@ -93,7 +102,7 @@ Vec3f Film::sample_variance(int x, int y) const {
         double variance = p.variance(c);
         if (!negative_.empty()) {
             const Sums& n = negative_[index(x, y)];
-            const double a = 0.5 * (absolute_integral_ + 1), b = 0.5 * (absolute_integral_ - 1);
+            const double w = absolute_integral(x, y), a = 0.5 * (w + 1), b = 0.5 * (w - 1);
             const double all = double(p.count) + n.count;
             if (p.count && n.count)
                 variance = all * (a * a * variance / p.count + b * b * n.variance(c) / n.count);

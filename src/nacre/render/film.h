@@ -68,7 +68,10 @@ class Film {
 
     FilmSettings settings_;
     int width_, height_;
-    double absolute_integral_;  ///< W of the filter
+    /// W of a pixel: the product of those of its column and its row, which at the border of the
+    /// film are of the part of the filter that lies on it.
+    std::vector<float> column_absolute_, row_absolute_;
+    double absolute_integral(int x, int y) const { return column_absolute_[x] * row_absolute_[y]; }
     std::vector<Sums> pixels_;
     std::vector<Sums> negative_;  ///< samples of negative lobes; empty if the filter has none
     std::vector<InvalidSample> invalid_;

@@ -1,5 +1,7 @@
 #include "nacre/render/filter.h"
 
+#include <limits>
+
 #include "nacre/math/error.h"
 
 namespace nacre {
@@ -85,6 +87,58 @@ std::pair<float, bool> Filter::sample1d(float u) const {
 FilterSample Filter::sample(Vec2f u) const {
     const auto [x, negative_x] = sample1d(u.x);
     const auto [y, negative_y] = sample1d(u.y);
+    const float weight = absolute_integral();
+    return {{x, y}, negative_x != negative_y ? -weight : weight};
+}
+
+FilterWindow filter_window(const FilmSettings& film, int x, int y) {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    if (film.sample_border) return {{-far, -far}, {far, far}};
+    return {{-(float(x) + 0.5f), -(float(y) + 0.5f)},
+            {float(film.width - x) - 0.5f, float(film.height - y) - 0.5f}};
+}
+
+float Filter::position(float x) const {
+    return std::clamp((x / radius_ + 1.f) * 0.5f * cells, 0.f, float(cells));
+}
+
+float Filter::share_below(float x) const {
+    const float at = position(x);
+    const int i = std::min(static_cast<int>(at), cells - 1);
+    return cdf_[i] + (at - i) * (cdf_[i + 1] - cdf_[i]);
+}
+
+float Filter::absolute_integral(float low, float high) const {
+    if (holds(low, high)) return absolute_;
+    const float begin = position(low), end = position(high);
+    double integral = 0, absolute = 0;
+    for (int i = 0; i < cells; ++i) {
+        const double part = std::clamp(end - i, 0.f, 1.f) - std::clamp(begin - i, 0.f, 1.f);
+        const double mass = part * (double(cdf_[i + 1]) - cdf_[i]);
+        absolute += mass;
+        integral += negative_[i] ? -mass : mass;
+    }
+    if (!(integral > 1e-3 * absolute))
+        throw InputError(
+            "at the film's border the part of the reconstruction filter that lies on the film has "
+            "no positive integral; set sample_border to true or choose another filter");
+    return static_cast<float>(absolute / integral);
+}
+
+std::pair<float, bool> Filter::sample1d(float u, float low, float high) const {
+    if (holds(low, high)) return sample1d(u);
+    low = std::max(low, -radius_);
+    high = std::min(high, radius_);
+    if (box_) return {low + (high - low) * u, false};
+    const float below = share_below(low), until = share_below(high);
+    const auto [x, negative] = sample1d(std::min(below + (until - below) * u, cdf_[cells]));
+    return {std::clamp(x, low, high), negative};
+}
+
+FilterSample Filter::sample(Vec2f u, const FilterWindow& window) const {
+    const auto [x, negative_x] = sample1d(u.x, window.low.x, window.high.x);
+    const auto [y, negative_y] = sample1d(u.y, window.low.y, window.high.y);
+    // Of either sign; the film knows how much the lobes of a pixel count.
     const float weight = absolute_integral();
     return {{x, y}, negative_x != negative_y ? -weight : weight};
 }

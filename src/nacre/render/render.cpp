@@ -154,7 +154,8 @@ class RenderJob {
         const FilmSettings& film = film_.settings();
         const int full_x = x + film.crop_x, full_y = y + film.crop_y;
         sampler.start(std::uint64_t(full_y) * film.width + full_x, s);
-        const FilterSample position = filter_.sample(sampler.next2d());
+        const FilterSample position =
+            filter_.sample(sampler.next2d(), filter_window(film, full_x, full_y));
         const Vec2f lens = sampler.next2d();
         const bool spectral = scene_.mode == ColorMode::spectral;
         const Wavelengths wavelengths =

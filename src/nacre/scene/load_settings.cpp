@@ -109,7 +109,7 @@ FilmSettings read_film(const SceneNode& node, BuildContext& context) {
             fmt::format("{}: pixel_format '{}' is written as rgb", node.location.str(), pixels));
     node.get_choice("component_format", {"float16", "float32"});
     node.get_choice("file_format", {"openexr", "exr", "rgbe", "pfm"});
-    node.get_bool("sample_border", false);
+    film.sample_border = node.get_bool("sample_border", false);
     node.get_bool("compensate", false);
 
     const auto filters = node.children_of("rfilter");

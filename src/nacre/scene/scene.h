@@ -43,6 +43,7 @@ struct FilmSettings {
     int crop_x = 0, crop_y = 0, crop_width = 0,
         crop_height = 0;  ///< crop_width = 0: the whole film
     FilterSettings filter;
+    bool sample_border = false;  ///< whether wide filters also take samples from beyond the film
     FilmQuantity quantity = FilmQuantity::radiance;
 };
 
