@@ -157,8 +157,9 @@ void compare_half_space(const json& group, Comparison& result) {
 double common_width(const std::vector<double>& edges) {
     double first = edges.front();
     for (std::size_t i = 1; i < edges.size(); ++i)
-        if (!(edges[i] > edges[i - 1])) throw InputError("\"r_edges\" must ascend");
-    if (!(first >= 0.)) throw InputError("\"r_edges\" must not be negative");
+        if (!(edges[i] > edges[i - 1]))
+            throw InputError("monte_carlo vectors: \"r_edges\" must ascend");
+    if (!(first >= 0.)) throw InputError("monte_carlo vectors: \"r_edges\" must not be negative");
     const double least = 1e-6 * edges.back();
     double width = 0.;
     for (double edge : edges) {
@@ -173,10 +174,11 @@ double common_width(const std::vector<double>& edges) {
     }
     constexpr double most = 10000.;
     if (!(edges.back() <= most * width * (1. + 1e-9)))
-        throw InputError(fmt::format(
-            "\"r_edges\" have no common width of at least a {:g}th of the last, {:g} mm; "
-            "round them",
-            most, edges.back()));
+        throw InputError(
+            fmt::format("monte_carlo vectors: \"r_edges\" have no common width of at least a "
+                        "{:g}th of the last, {:g} mm; "
+                        "round them",
+                        most, edges.back()));
     return width;
 }
 

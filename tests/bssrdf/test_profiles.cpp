@@ -326,4 +326,38 @@ TEST(RadialProfiles, RefuseWrongInput) {
     EXPECT_EQ(of(good), "no error");
 }
 
+TEST(Profiles, FitsAreRefusedBeyondTheirRange) {
+    // Jensen's fit of the reflectance passes 1 at indices of 3.85 and 0.26, where totals explode.
+    const auto total = [](const char* name, double eta, const char* options) {
+        return make_profile(name, {1., 0.01, 0., eta}, parse_settings(options))->total();
+    };
+    const auto refusal = [&](const char* name, double eta, const char* options) {
+        try {
+            total(name, eta, options);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    for (const double eta : {0.4, 0.7, 1.5, 3.}) {
+        EXPECT_EQ(refusal("dipole", eta, ""), "accepted") << eta;
+        EXPECT_LE(total("dipole", eta, ""), 1.) << eta;
+    }
+    for (const double eta : {0.25, 0.39, 3.1, 4.}) {
+        EXPECT_EQ(refusal("dipole", eta, ""),
+                  fmt::format("the fit of diffuse Fresnel reflectance of Jensen et al. 2001 holds "
+                              "for relative indices eta from 0.4 to 3, not {:g}; use the exact "
+                              "reflectance, --set boundary=exact, or a profile without the fit, "
+                              "such as better_dipole",
+                              eta));
+        EXPECT_LE(total("dipole", eta, "boundary=exact"), 1.) << eta;
+    }
+    for (const double eta : {0.2, 2.6})
+        EXPECT_EQ(refusal("better_dipole", eta, "moments=fit"),
+                  fmt::format("the fits of Fresnel moments of d'Eon and Irving 2011 hold for "
+                              "relative indices eta from 0.25 to 2.5, not {:g}; use the exact "
+                              "moments: --set moments=exact",
+                              eta));
+}
+
 }  // namespace nacre

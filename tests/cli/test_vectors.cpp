@@ -101,6 +101,39 @@ TEST_F(ScatteringVectors, AFileIsToldByItsKeys) {
                     .err.starts_with("nacre: translucent medium: sigma_s = -1 must be"));
 }
 
+// Rings need not be multiples of the first: those of the file, some of them joined.
+TEST_F(ScatteringVectors, RingsMayHaveAnyWidths) {
+    json row = few()["monte_carlo"][0];
+    const auto edges = row["r_edges"].get<std::vector<double>>();
+    const auto mean = row["R_of_r_mean_per_area"].get<std::vector<double>>();
+    const auto error = row["R_of_r_se"].get<std::vector<double>>();
+    const std::vector<double> joined = {0., 1., 1.5, 4.};
+    json means = json::array(), errors = json::array();
+    for (std::size_t k = 0; k + 1 < joined.size(); ++k) {
+        double sum = 0., square = 0., area = 0.;
+        for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+            if (edges[i] < joined[k] || edges[i + 1] > joined[k + 1]) continue;
+            const double a = edges[i + 1] * edges[i + 1] - edges[i] * edges[i];
+            sum += a * mean[i];
+            square += a * a * error[i] * error[i];
+            area += a;
+        }
+        ASSERT_NEAR(area, joined[k + 1] * joined[k + 1] - joined[k] * joined[k], 1e-12);
+        means.push_back(sum / area);
+        errors.push_back(std::sqrt(square) / area);
+    }
+    row["r_edges"] = joined;
+    row["R_of_r_mean_per_area"] = means;
+    row["R_of_r_se"] = errors;
+    const Outcome r = check({{"monte_carlo", {row}}});
+    EXPECT_EQ(r.code, 0) << r.out;
+    row["R_of_r_mean_per_area"][1] = 1.1 * means[1].get<double>();
+    EXPECT_EQ(check({{"monte_carlo", {row}}}).code, 1);
+    row["r_edges"] = {0., 1., 0.5, 4.};
+    EXPECT_EQ(check({{"monte_carlo", {row}}}).err,
+              "nacre: monte_carlo vectors: \"r_edges\" must ascend\n");
+}
+
 // The whole file, of which everything but differential equations is answered.
 TEST_F(ScatteringVectors, TheReferenceFileIsAnswered) {
     const std::string file = NACRE_SHARED_DIR "/reference/scattering_vectors.json";

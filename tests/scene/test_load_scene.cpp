@@ -217,6 +217,11 @@ TEST_F(LoadScene, MediaThatMeetAreSaid) {
     EXPECT_EQ(found(outside + box(-1) + box(1)), touch);
     EXPECT_EQ(found(outside + box(-0.75) + box(0.75)), overlap);
     EXPECT_EQ(found(outside + box(0) + box(0, 0.5)), "") << "one wholly inside the other";
+    // Inscribed: its poles lie on the cube's sides, facing the same way.
+    EXPECT_EQ(found(outside + box(0) +
+                    R"(<shape type="sphere"><bsdf type="dielectric"/>
+                    <medium name="interior" type="homogeneous"/></shape>)"),
+              "");
     EXPECT_EQ(found(fmt::format(fmt::runtime(camera), 0, "") + box(0)),
               "the camera stands in a medium but does not say so, and light reaches it as through "
               "nothing: give the sensor that <medium>, by <ref>, too");

@@ -55,25 +55,24 @@ bool is_inside(const RayScene& rays, std::uint32_t shape, const Point3f& p) {
     return false;
 }
 
-/// Of points spread over a shape: how many lie inside another, and how many on it with the two
-/// surfaces back to back.
+/// Of points spread over a shape: how many lie inside another, how many outside, and how many on it
+/// with the two surfaces back to back.
 struct Contact {
-    int points = 0, inside = 0, touching = 0;
+    int inside = 0, outside = 0, touching = 0;
 
     Contact(const RayScene& rays, std::uint32_t of, std::uint32_t other) {
         const float size = length(rays.bounds(of).diagonal());
-        for (; points < 128; ++points) {
+        for (int i = 0; i < 128; ++i) {
             // Additive recurrence of the plastic number: even, and the same every time.
             const auto fraction = [](double x) { return float(x - std::floor(x)); };
-            const Vec2f u{fraction(0.5 + 0.7548776662 * points),
-                          fraction(0.5 + 0.5698402910 * points)};
+            const Vec2f u{fraction(0.5 + 0.7548776662 * i), fraction(0.5 + 0.5698402910 * i)};
             const AreaSample at = rays.sample_area(of, u);
             const float near = 1e-5f * size;
             if (const auto hit = rays.closest(at.p, near, other)) {
                 const SurfacePoint there = rays.surface_point({at.p, at.n}, *hit);
                 touching += dot(there.ng, at.n) < -0.99f;
             } else {
-                inside += is_inside(rays, other, at.p);
+                ++(is_inside(rays, other, at.p) ? inside : outside);
             }
         }
     }
@@ -93,8 +92,7 @@ void warn_about_pair(Scene& scene, std::uint32_t a, std::uint32_t b) {
                                  " have media and touch face to face: light is gained or lost "
                                  "where two surfaces coincide; leave a gap or make them one");
     // Wholly inside is legitimate: the inner one says what is outside of it.
-    else if ((of_a.inside > 0 && of_a.inside < of_a.points) ||
-             (of_b.inside > 0 && of_b.inside < of_b.points))
+    else if ((of_a.inside > 0 && of_a.outside > 0) || (of_b.inside > 0 && of_b.outside > 0))
         scene.warnings.push_back(names +
                                  " have media and overlap: light is gained or lost where both "
                                  "are; let one end where the other begins");
