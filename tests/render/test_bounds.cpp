@@ -51,6 +51,20 @@ TEST_F(Bounds, LightsAreChosenAsOftenAsClaimed) {
     }
 }
 
+// The same random number must find the same light in every run, wherever the lights lie in memory.
+TEST_F(Bounds, LightsAreChosenInTheOrderOfTheScene) {
+    const Scene s = scene(xml::sphere({0, 2, 1}, 0.3, xml::area_light({1, 2, 3})) +
+                          xml::sphere({3, 2, 1}, 0.3, xml::area_light({1, 2, 3})) +
+                          xml::sphere({6, 2, 1}, 0.3, xml::area_light({1, 2, 3})));
+    std::vector<LightPtr> lights = s.lights;
+    std::ranges::sort(lights);  // by address
+    do {
+        const LightChooser chooser(lights, s.rays.bounds());
+        EXPECT_EQ(chooser.choose({0, 0, 0}, 0.f).light, lights.front().get());
+        EXPECT_EQ(chooser.choose({0, 0, 0}, 0.9999999f).light, lights.back().get());
+    } while (std::ranges::next_permutation(lights).found);
+}
+
 TEST_F(Bounds, WithoutLightsNoneIsChosen) {
     const Scene s = scene(xml::sphere({}, 1, ""));
     const LightChooser chooser(s.lights, s.rays.bounds());

@@ -33,8 +33,11 @@ LightChooser::LightChooser(std::span<const LightPtr> lights, const Box3f& scene_
         power += entry.power;
         entries_.push_back(entry);
     }
-    for (Entry& entry : entries_) entry.by_power = entry.power / power;
-    std::ranges::sort(entries_, std::less<>{}, &Entry::light);
+    for (Entry& entry : entries_) {
+        entry.by_power = entry.power / power;
+        places_.emplace_back(entry.light, static_cast<std::uint32_t>(places_.size()));
+    }
+    std::ranges::sort(places_);
 }
 
 float LightChooser::importance(const Entry& entry, const Point3f& from) const {
@@ -74,10 +77,11 @@ LightChooser::Choice LightChooser::choose(const Point3f& from, float u) const {
 }
 
 float LightChooser::probability(const Point3f& from, const Light* light) const {
-    const auto it = std::ranges::lower_bound(entries_, light, std::less<>{}, &Entry::light);
-    if (it == entries_.end() || it->light != light) return 0.f;
+    const auto it = std::ranges::lower_bound(places_, light, std::less<>{},
+                                             &std::pair<const Light*, std::uint32_t>::first);
+    if (it == places_.end() || it->first != light) return 0.f;
     if (entries_.size() == 1) return 1.f;
-    return mixed(importance(*it, from), total(from));
+    return mixed(importance(entries_[it->second], from), total(from));
 }
 
 }  // namespace nacre

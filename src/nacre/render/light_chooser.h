@@ -41,7 +41,8 @@ class LightChooser {
     float total(const Point3f& from) const;
     float mixed(float importance, float total) const;
 
-    std::vector<Entry> entries_;  // sorted by address
+    std::vector<Entry> entries_;  // in the order of the scene: pictures must not hang on addresses
+    std::vector<std::pair<const Light*, std::uint32_t>> places_;  // in it, sorted by address
 };
 
 }  // namespace nacre
