@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "nacre/math/error.h"
+#include "nacre/text/number.h"
 
 namespace nacre::cli {
 namespace {
@@ -16,6 +17,7 @@ std::string_view without_plus(std::string_view text) {
     return text;
 }
 
+/// Of 64 bits, with a sign or without.
 template <class T>
 std::optional<T> read(std::string_view text) {
     text = without_plus(text);
@@ -82,7 +84,7 @@ CLI::Option* declare_whole(CLI::App& app, const std::string& names, Value& value
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
-    const std::optional<double> value = read<double>(text);
+    const std::optional<double> value = parse_number(text);
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

@@ -114,6 +114,9 @@ TEST_F(ImageMatrix, ExrLayers) {
     const std::pair<const char*, std::string> cases[] = {
         {"plain.exr", "1 2 3"},
         {"lower.exr", "1 2 3"},
+        {"lower.exr#beauty",
+         "lower.exr: has no layers but one picture, R, G and B or Y by themselves: leave out "
+         "'#beauty'"},
         {"plain_and_layer.exr", "1 2 3"},
         {"plain_and_layer.exr#diffuse", "7 8 9"},
         {"blender.exr", "4 5 6"},

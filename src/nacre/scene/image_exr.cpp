@@ -102,6 +102,10 @@ Layer choose(const Imf::MultiPartInputFile& file, const std::string& wanted) {
         throw InputError(fmt::format(
             "has no R, G and B and no single luminance Y; its channels are: {}", joined(channels)));
     }
+    if (!wanted.empty() && layers.size() == 1 && layers.front().name.empty())
+        throw InputError(fmt::format(
+            "has no layers but one picture, R, G and B or Y by themselves: leave out '#{}'",
+            wanted));
     if (!wanted.empty())
         throw InputError(fmt::format("has no layer '{}'; it has: {}", wanted, joined(names)));
     const auto plain = [](const Layer& l) { return l.plain; };

@@ -1,6 +1,7 @@
 // Portable float map (Paul Debevec): "PF" or "Pf", width, height, a scale whose sign tells the byte
 // order, then rows of floats from the bottom up. And Radiance RGBE (Greg Ward 1991, Real Pixels,
 // Graphics Gems II), read here because a truncated file makes stb_image 2.27 loop for ever.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +9,8 @@
 
 #include "nacre/math/error.h"
 #include "nacre/scene/image_formats.h"
+#include "nacre/text/lines.h"
+#include "nacre/text/number.h"
 
 namespace nacre::image_formats {
 namespace {
@@ -44,12 +47,10 @@ class Reader {
     }
     double number(const char* what) {
         const std::string text = word();
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool digits = text.find_first_not_of("0123456789+-.eE") == text.npos;
-        if (*end || !digits || !std::isfinite(value))
+        const auto value = parse_number(text);
+        if (!value || !std::isfinite(*value))
             throw InputError(fmt::format("has '{}' for its {}, which is not a number", text, what));
-        return value;
+        return *value;
     }
 
   private:
@@ -94,22 +95,15 @@ void read_pixels(Reader& in, std::vector<std::uint8_t>& row, int width) {
 
 /// The positive numbers of a line NAME=NUMBER..., one for all three channels or one for each.
 Vec3d factors(std::string_view line, int count) {
-    const std::string text(line.substr(line.find('=') + 1));
-    Vec3d r{1, 1, 1};
-    const char* at = text.c_str();
-    for (int i = 0; i < count; ++i) {
-        char* end = nullptr;
-        r[i] = std::strtod(at, &end);
-        if (end == at || !(r[i] > 0) || !std::isfinite(r[i]))
-            throw InputError(fmt::format("has the line '{}'; {} positive number{} belong{} there",
-                                         line, count, count == 1 ? "" : "s",
-                                         count == 1 ? "s" : ""));
-        at = end;
-    }
-    if (text.find_first_not_of(" \t", at - text.c_str()) != text.npos)
+    std::string_view rest = line.substr(line.find('=') + 1);
+    std::vector<double> numbers;
+    for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
+        numbers.push_back(parse_number(word).value_or(-1.));
+    const auto good = [](double x) { return x > 0. && std::isfinite(x); };
+    if (numbers.size() != std::size_t(count) || !std::ranges::all_of(numbers, good))
         throw InputError(fmt::format("has the line '{}'; {} positive number{} belong{} there", line,
                                      count, count == 1 ? "" : "s", count == 1 ? "s" : ""));
-    return count == 1 ? Vec3d{r.x, r.x, r.x} : r;
+    return {numbers.front(), numbers[numbers.size() / 2], numbers.back()};
 }
 
 }  // namespace
