@@ -1,4 +1,7 @@
 // What readers say about wrong files: the whole message, since that is all a user sees.
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <fstream>
 
 #include "nacre/geometry/mesh_build.h"
@@ -49,7 +52,8 @@ TEST(MeshErrors, Files) {
     EXPECT_EQ(load("/nowhere/bunny.ply"),
               "/nowhere/bunny.ply: cannot be opened (No such file or directory); check the path");
     EXPECT_EQ(load("/"), "/: is a folder; give the mesh file inside it");
-    const auto empty = std::filesystem::temp_directory_path() / "nacre_test_empty.obj";
+    const auto empty =
+        std::filesystem::path(testing::TempDir()) / fmt::format("nacre_empty_{}.obj", getpid());
     std::ofstream{empty};
     EXPECT_EQ(load(empty), empty.string() + ": is empty; export the mesh again");
     std::filesystem::remove(empty);

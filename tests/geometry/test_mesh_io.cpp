@@ -1,5 +1,8 @@
 #include "nacre/geometry/mesh_io.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <fstream>
 
 #include "nacre/geometry/mesh_report.h"
@@ -49,7 +52,8 @@ TEST(MeshReaders, SerializedPicksTheShape) {
 }
 
 TEST(MeshReaders, ReadsFromDisk) {
-    const auto folder = std::filesystem::temp_directory_path() / "nacre_test_mesh_io";
+    const auto folder =
+        std::filesystem::path(testing::TempDir()) / fmt::format("nacre_mesh_io_{}", getpid());
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "t.bin", std::ios::binary) << tetrahedron_buffer();
     std::ofstream(folder / "t.gltf", std::ios::binary) << tetrahedron_gltf_json(

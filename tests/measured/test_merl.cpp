@@ -1,6 +1,8 @@
 #include "nacre/measured/merl.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -176,7 +178,8 @@ TEST(Merl, WrongFiles) {
 }
 
 TEST(Merl, WrongPaths) {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "nacre_merl_test";
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / fmt::format("nacre_merl_{}", getpid());
     std::filesystem::create_directories(folder);
     const auto message = [](const std::filesystem::path& path) {
         try {
