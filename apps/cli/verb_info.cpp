@@ -51,16 +51,20 @@ ordered_json describe_image(const std::filesystem::path& file) {
     return json;
 }
 
-/// What else a glTF says; nacre takes its geometry only.
+/// What else a glTF says: its materials in its own words, and what of it pictures leave out.
 void add_gltf(const std::filesystem::path& file, ordered_json& json) {
-    const GltfSummary summary = load_gltf_summary(file);
+    const GltfObject object = load_gltf(file);
     ordered_json materials = ordered_json::array();
-    for (const GltfMaterial& m : summary.materials)
-        materials.push_back({{"name", m.name}, {"used", m.used}, {"left_out", m.properties}});
+    for (const GltfMaterial& m : object.materials) {
+        ordered_json material{{"name", m.name}, {"used", m.used}, {"properties", m.properties}};
+        if (!m.left_out.empty()) material["left_out"] = m.left_out;
+        materials.push_back(material);
+    }
     if (!materials.empty()) json["materials"] = materials;
-    if (!summary.extensions_used.empty()) json["extensions_used"] = summary.extensions_used;
-    if (!summary.extensions_required.empty())
-        json["extensions_required"] = summary.extensions_required;
+    if (!object.left_out.empty()) json["left_out"] = object.left_out;
+    if (!object.extensions_used.empty()) json["extensions_used"] = object.extensions_used;
+    if (!object.extensions_required.empty())
+        json["extensions_required"] = object.extensions_required;
 }
 
 ordered_json describe_mesh(const std::filesystem::path& file) {

@@ -176,7 +176,7 @@ TEST(MeshGltf, MaterialsAreListedWithEveryProperty) {
         R"("extensions":{"KHR_materials_volume":{"attenuationDistance":2,)"
         R"("attenuationColor":[1,0.5,0.5]}}},{}])",
         R"(,"material":0)");
-    const GltfSummary summary = parse_gltf_summary(file, "a.gltf");
+    const GltfObject summary = parse_gltf_object(file, "a.gltf");
     ASSERT_EQ(summary.materials.size(), 2u);
     EXPECT_EQ(summary.extensions_used, std::vector<std::string>{"KHR_materials_volume"});
     EXPECT_EQ(summary.materials[0].name, "wax");

@@ -125,6 +125,22 @@ inline std::vector<NamedMaterial> all_materials() {
     add("twosided", bsdf("twosided", {}, {child(metal)}), true);
     add("twosided of two", bsdf("twosided", {}, {child(diffuse), child(bsdf("plastic"))}), true);
     add("mask", bsdf("mask", {number("opacity", 0.3)}, {child(diffuse)}), true);
+    add("blendbsdf", bsdf("blendbsdf", {number("weight", 0.4)}, {child(diffuse), child(metal)}),
+        false);
+    add("blendbsdf of two sides",
+        bsdf("blendbsdf", {number("weight", 0.3)},
+             {child(bsdf("twosided", {}, {child(diffuse)})),
+              child(bsdf("roughdielectric", {number("alpha", 0.25)}))}),
+        true, glass);
+    add("blendbsdf with a mirror",
+        bsdf("blendbsdf", {number("weight", 0.5)}, {child(diffuse), child(bsdf("thindielectric"))}),
+        true);
+    add("difftrans", bsdf("difftrans", {rgb("transmittance", {0.7f, 0.4f, 0.1f})}), true);
+    add("coated difftrans",
+        bsdf("difftrans", {number("transmittance", 0.4), number("coat", 1)},
+             {child(bsdf("metallic_roughness", {number("base_color", 0.5), number("roughness", 0.4),
+                                                text("coupling", "shirley")}))}),
+        true);
     const auto forward = node("phase", "hg", {number("g", 0.5)});
     const std::vector<SceneValue> matter = {rgb("sigma_s", {2.f, 1.f, 0.3f}),
                                             rgb("sigma_a", {0.1f, 0.3f, 0.6f}),

@@ -30,8 +30,9 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
     const WrongMaterial wrong[] = {
         {bsdf("difuse"), "test.xml:1:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
         {bsdf("xyzzy"),
-         fmt::format("test.xml:1:1: unknown bsdf type 'xyzzy'; known are: conductor, dielectric, "
-                     "diffuse, hk, mask, null, plastic, roughconductor, roughdielectric, "
+         fmt::format("test.xml:1:1: unknown bsdf type 'xyzzy'; known are: blendbsdf, conductor, "
+                     "dielectric, difftrans, diffuse, hk, mask, null, plastic, roughconductor, "
+                     "roughdielectric, "
                      "roughplastic, thindielectric, twosided, {}",
                      fmt::join(model_names(), ", "))},
         {bsdf("diffuse", {number("reflectence", 0.5)}),
@@ -110,6 +111,18 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
          "cannot be nested in <bsdf type=\"twosided\">"},
         {bsdf("mask", {}, {child(diffuse), child(diffuse)}),
          "test.xml:1:1: <bsdf type=\"mask\"> takes 1 nested <bsdf>, but 2 are given"},
+        {bsdf("mask", {number("cutoff", 1.5)}, {child(diffuse)}),
+         "test.xml:2:5: 'cutoff' of <bsdf type=\"mask\"> must lie within [0, 1]; got 1.5"},
+        {bsdf("blendbsdf", {}, {child(diffuse)}),
+         "test.xml:1:1: <bsdf type=\"blendbsdf\"> takes 2 nested <bsdf>, but 1 is given"},
+        {bsdf("blendbsdf", {number("weight", 2)}, {child(diffuse), child(diffuse)}),
+         "test.xml:2:5: 'weight' of <bsdf type=\"blendbsdf\"> must lie within [0, 1], lest energy "
+         "appear from nowhere; got 2"},
+        {bsdf("difftrans", {}, {child(bsdf("dielectric"))}),
+         "test.xml:1:1: <bsdf type=\"dielectric\"> lets light through by itself; <bsdf "
+         "type=\"difftrans\"> takes a reflection"},
+        {bsdf("difftrans", {number("f0", 1)}),
+         "test.xml:2:5: 'f0' of <bsdf type=\"difftrans\"> must lie within [0, 0.99]; got 1"},
         {bsdf("hk", {number("thickness", 0.)}),
          "test.xml:2:5: 'thickness' of <bsdf type=\"hk\"> must be positive; got 0"},
         {bsdf("hk", {number("thickness", nan)}),

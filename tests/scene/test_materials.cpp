@@ -143,6 +143,18 @@ TEST(Materials, LoseNothingWhereNothingAbsorbs) {
     check("nonlinear plastic",
           bsdf("plastic", {number("diffuse_reflectance", 1.), flag("nonlinear", true)}), false,
           5e-3);
+    check("difftrans", bsdf("difftrans", {number("transmittance", 1.)}), true, 1e-4);
+    // Under its boundary: all passes on or is mirrored, but for the 0.002 of a rough boundary.
+    const auto boundary =
+        bsdf("metallic_roughness",
+             {number("base_color", 0.), number("roughness", 0.1), text("coupling", "shirley")});
+    check("coated difftrans",
+          bsdf("difftrans", {number("transmittance", 1.), number("coat", 1.)}, {child(boundary)}),
+          true, 0.01);
+    check("blendbsdf",
+          bsdf("blendbsdf", {number("weight", 0.4)},
+               {child(bsdf("dielectric")), child(bsdf("null"))}),
+          true, 1e-4);
     // Facets in series are neglected: 1 % at this roughness but for grazing views.
     const MaterialPtr frosted = material(bsdf("roughdielectric", {number("alpha", 0.1)}));
     const Shares s = shares(*frosted, direction(0.9, 1.));

@@ -292,16 +292,20 @@ double GltfElements::value(std::size_t i, int component) const {
     }
 }
 
-tinygltf::Model parse_gltf(const MeshSource& given) {
+tinygltf::Model parse_gltf(const MeshSource& given, bool keep_pictures) {
     MeshSource source = given;
     if (source.bytes.starts_with("\xef\xbb\xbf")) source.bytes.remove_prefix(3);
     if (source.bytes.size() > 0xffffffffu) source.fail("is larger than glTF's limit of 4 GiB");
     check_extensions(source, source.bytes.starts_with("glTF") ? json_of_glb(source) : source.bytes);
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks(files_but_images());
-    loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                             const unsigned char*, int, void*) { return true; },
-                          nullptr);
+    loader.SetImageLoader(
+        [](tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+           const unsigned char* bytes, int size, void* keep) {
+            if (*static_cast<bool*>(keep) && size > 0) image->image.assign(bytes, bytes + size);
+            return true;
+        },
+        &keep_pictures);
     tinygltf::Model model;
     std::string error, warning;
     bool read = false;

@@ -14,9 +14,15 @@
 
 namespace nacre {
 
-/// The document with its buffers; pictures are not looked at. Files that need an extension which
-/// nacre does not know are refused by its name before anything else is judged.
-tinygltf::Model parse_gltf(const MeshSource& source);
+/// The document with its buffers. Pictures inside it are kept as they are (PNG, JPEG: in
+/// Image::image) if asked for; those in files of their own are not looked at. Files that need an
+/// extension which nacre does not know are refused by its name before anything else is judged.
+tinygltf::Model parse_gltf(const MeshSource& source, bool keep_pictures = false);
+
+/// The triangles of the default scene, in its frame, by material: [0] those without, [m + 1] those
+/// of material m, whose texture coordinates are the set TEXCOORD_n, n = uv_sets[m + 1].
+std::vector<Mesh> read_gltf_parts(const MeshSource& source, const tinygltf::Model& model,
+                                  const std::vector<int>& uv_sets);
 
 template <class T>
 const T& entry(const MeshSource& source, const std::vector<T>& list, int index, const char* what) {

@@ -36,12 +36,22 @@ Transform local_transform(const MeshSource& source, const tinygltf::Node& node, 
     }
 }
 
+/// Where triangles of that material go.
+int part_of(int material, std::size_t materials) {
+    return material >= 0 && static_cast<std::size_t>(material) < materials ? material + 1 : 0;
+}
+
 class GltfBuilder {
   public:
-    GltfBuilder(const MeshSource& source, const tinygltf::Model& model)
-        : source_(source), model_(model), reached_(model.nodes.size(), false) {}
+    /// One mesh, or one for each entry of `uv_sets`: materials, the first of which is none.
+    GltfBuilder(const MeshSource& source, const tinygltf::Model& model, std::vector<int> uv_sets)
+        : source_(source),
+          model_(model),
+          reached_(model.nodes.size(), false),
+          uv_sets_(std::move(uv_sets)),
+          meshes_(uv_sets_.size()) {}
 
-    Mesh build() {
+    std::vector<Mesh> build() {
         if (model_.nodes.empty()) {
             for (const auto& mesh : model_.meshes) add(mesh, Transform());
         } else if (!model_.scenes.empty()) {
@@ -57,9 +67,11 @@ class GltfBuilder {
                 if (!child[i]) visit(static_cast<int>(i), Transform(), 0);
         }
         // One primitive with normals is enough; the others' zeros are computed later.
-        if (any_normals_) mesh_.normals.resize(mesh_.positions.size());
-        if (any_uvs_) mesh_.uvs.resize(mesh_.positions.size());
-        return std::move(mesh_);
+        for (Mesh& mesh : meshes_) {
+            if (!mesh.normals.empty()) mesh.normals.resize(mesh.positions.size());
+            if (!mesh.uvs.empty()) mesh.uvs.resize(mesh.positions.size());
+        }
+        return std::move(meshes_);
     }
 
   private:
@@ -99,33 +111,37 @@ class GltfBuilder {
         const int* position = attribute(primitive, "POSITION");
         if (!position) source_.fail("has a primitive without POSITION; export it with positions");
         const GltfElements positions(source_, model_, *position, 3, "POSITION");
-        const std::size_t first = mesh_.positions.size(), count = positions.count();
+        const std::size_t part =
+            meshes_.size() > 1
+                ? static_cast<std::size_t>(part_of(primitive.material, model_.materials.size()))
+                : 0;
+        Mesh& mesh = meshes_[part];
+        const std::size_t first = mesh.positions.size(), count = positions.count();
         if (first + count > 0xffffffffu)
             source_.fail("has more than 2^32 vertices; split it into several files");
         for (std::size_t i = 0; i < count; ++i)
-            mesh_.positions.emplace_back(to_world.map_point(positions.vector(i)));
+            mesh.positions.emplace_back(to_world.map_point(positions.vector(i)));
         if (const int* normal = attribute(primitive, "NORMAL")) {
             const GltfElements normals(source_, model_, *normal, 3, "NORMAL");
             match("NORMAL", normals.count(), count);
-            any_normals_ = true;
-            mesh_.normals.resize(first);
+            mesh.normals.resize(first);
             for (std::size_t i = 0; i < count; ++i)
-                mesh_.normals.emplace_back(to_world.map_normal(normals.vector(i)));
+                mesh.normals.emplace_back(to_world.map_normal(normals.vector(i)));
         }
-        if (const int* uv = attribute(primitive, "TEXCOORD_0")) {
-            const GltfElements uvs(source_, model_, *uv, 2, "TEXCOORD_0");
-            match("TEXCOORD_0", uvs.count(), count);
-            any_uvs_ = true;
-            mesh_.uvs.resize(first);
+        const std::string set = fmt::format("TEXCOORD_{}", uv_sets_[part]);
+        if (const int* uv = attribute(primitive, set.c_str())) {
+            const GltfElements uvs(source_, model_, *uv, 2, set.c_str());
+            match(set.c_str(), uvs.count(), count);
+            mesh.uvs.resize(first);
             for (std::size_t i = 0; i < count; ++i)
-                mesh_.uvs.push_back({float(uvs.value(i, 0)), float(uvs.value(i, 1))});
+                mesh.uvs.push_back({float(uvs.value(i, 0)), float(uvs.value(i, 1))});
         }
         const std::vector<std::uint32_t> corners = corners_of(primitive, first, count);
-        const std::size_t before = mesh_.triangles.size();
+        const std::size_t before = mesh.triangles.size();
         if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-            add_strip(mesh_, corners);
+            add_strip(mesh, corners);
         } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
-            add_polygon(mesh_, corners);
+            add_polygon(mesh, corners);
         } else {
             if (corners.size() % 3 != 0)
                 source_.fail(
@@ -133,11 +149,11 @@ class GltfBuilder {
                                 "three; export it again",
                                 corners.size()));
             for (std::size_t i = 0; i < corners.size(); i += 3)
-                mesh_.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+                mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
         }
         if (to_world.swaps_handedness())
-            for (std::size_t i = before; i < mesh_.triangles.size(); ++i)
-                std::swap(mesh_.triangles[i][1], mesh_.triangles[i][2]);
+            for (std::size_t i = before; i < mesh.triangles.size(); ++i)
+                std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
     }
 
     void match(const char* what, std::size_t got, std::size_t want) const {
@@ -172,15 +188,20 @@ class GltfBuilder {
     const MeshSource& source_;
     const tinygltf::Model& model_;
     std::vector<bool> reached_;
-    bool any_normals_ = false, any_uvs_ = false;
-    Mesh mesh_;
+    std::vector<int> uv_sets_;
+    std::vector<Mesh> meshes_;
 };
 
 }  // namespace
 
 Mesh read_gltf(const MeshSource& source) {
     const tinygltf::Model model = parse_gltf(source);
-    return GltfBuilder(source, model).build();
+    return std::move(GltfBuilder(source, model, {0}).build().front());
+}
+
+std::vector<Mesh> read_gltf_parts(const MeshSource& source, const tinygltf::Model& model,
+                                  const std::vector<int>& uv_sets) {
+    return GltfBuilder(source, model, uv_sets).build();
 }
 
 }  // namespace nacre

@@ -96,20 +96,6 @@ void trim(std::vector<T>& v, std::size_t extra) {
     v = std::move(exact);
 }
 
-// Files that a browser or an archiver left packed would only be called damaged.
-void refuse_compressed(const MeshSource& source) {
-    constexpr std::pair<std::string_view, const char*> kPacked[] = {{"\x1f\x8b", "gzip"},
-                                                                    {"PK\3\4", "zip"},
-                                                                    {"\xfd"
-                                                                     "7zXZ",
-                                                                     "xz"},
-                                                                    {"\x28\xb5\x2f\xfd", "zstd"},
-                                                                    {"BZh", "bzip2"}};
-    for (const auto& [start, name] : kPacked)
-        if (source.bytes.starts_with(start))
-            source.fail(fmt::format("is compressed with {}; unpack it first", name));
-}
-
 Mesh read(const MeshSource& source, const std::string& extension, const MeshOptions& options) {
     if (extension == ".obj") return read_obj(source);
     if (extension == ".ply") return read_ply(source);
@@ -124,6 +110,20 @@ Mesh read(const MeshSource& source, const std::string& extension, const MeshOpti
 }
 
 }  // namespace
+
+// Files that a browser or an archiver left packed would only be called damaged.
+void refuse_compressed(const MeshSource& source) {
+    constexpr std::pair<std::string_view, const char*> kPacked[] = {{"\x1f\x8b", "gzip"},
+                                                                    {"PK\3\4", "zip"},
+                                                                    {"\xfd"
+                                                                     "7zXZ",
+                                                                     "xz"},
+                                                                    {"\x28\xb5\x2f\xfd", "zstd"},
+                                                                    {"BZh", "bzip2"}};
+    for (const auto& [start, name] : kPacked)
+        if (source.bytes.starts_with(start))
+            source.fail(fmt::format("is compressed with {}; unpack it first", name));
+}
 
 void MeshSource::fail(const std::string& what) const {
     throw InputError(fmt::format("{}: {}", path.string(), what));
@@ -153,6 +153,22 @@ std::string read_bytes(const std::filesystem::path& path) {
     return bytes;
 }
 
+void finish_mesh(Mesh& mesh, const MeshSource& source, const MeshOptions& options,
+                 bool flip_tex_coords) {
+    mesh.name = source.path.filename().string();
+    check_values(mesh, source);
+    drop_degenerate(mesh, source);
+    repair_normals(mesh);
+    if (options.flip_tex_coords.value_or(flip_tex_coords))
+        for (Vec2f& uv : mesh.uvs) uv.y = 1 - uv.y;
+    apply(options.to_world, mesh);
+    if (!options.to_world.is_identity()) check_values(mesh, source);
+    trim(mesh.positions, 1);
+    trim(mesh.normals, 0);
+    trim(mesh.uvs, 0);
+    trim(mesh.triangles, 0);
+}
+
 std::shared_ptr<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path,
                                  const MeshOptions& options) {
     const MeshSource source{bytes, path};
@@ -161,18 +177,7 @@ std::shared_ptr<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     auto mesh = std::make_shared<Mesh>(read(source, extension, options));
-    mesh->name = path.filename().string();
-    check_values(*mesh, source);
-    drop_degenerate(*mesh, source);
-    repair_normals(*mesh);
-    if (options.flip_tex_coords.value_or(extension == ".obj"))
-        for (Vec2f& uv : mesh->uvs) uv.y = 1 - uv.y;
-    apply(options.to_world, *mesh);
-    if (!options.to_world.is_identity()) check_values(*mesh, source);
-    trim(mesh->positions, 1);
-    trim(mesh->normals, 0);
-    trim(mesh->uvs, 0);
-    trim(mesh->triangles, 0);
+    finish_mesh(*mesh, source, options, extension == ".obj");
     return mesh;
 }
 

@@ -29,6 +29,14 @@ Mesh read_stl(const MeshSource& source);
 Mesh read_gltf(const MeshSource& source);
 Mesh read_serialized(const MeshSource& source, int shape_index);
 
+/// What every reader leaves to be done: values checked, triangles without area dropped, normals
+/// completed, `options` applied.
+void finish_mesh(Mesh& mesh, const MeshSource& source, const MeshOptions& options,
+                 bool flip_tex_coords);
+
+/// Throws InputError for what an archiver left packed.
+void refuse_compressed(const MeshSource& source);
+
 /// Whole content of a file; throws InputError.
 std::string read_bytes(const std::filesystem::path& path);
 

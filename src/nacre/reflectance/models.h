@@ -13,6 +13,7 @@
     X(BlinnTorranceSparrow)  \
     X(CookTorrance)          \
     X(GgxSmith)              \
+    X(MetallicRoughness)     \
     X(Ward)                  \
     X(Schlick)               \
     X(SchlickCt)             \

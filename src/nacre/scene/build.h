@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nacre/scene/camera.h"
+#include "nacre/scene/image.h"
 #include "nacre/scene/light.h"
 #include "nacre/scene/material.h"
 #include "nacre/scene/medium.h"
@@ -34,6 +35,8 @@ struct BuildContext {
     std::map<std::pair<const SceneNode*, ColorRole>, TexturePtr> textures;
     /// Meshes that are in memory already, by the shape that they stand for.
     std::map<const SceneNode*, std::shared_ptr<Mesh>> meshes;
+    /// Pictures of linear values that are in memory already, by the texture that they stand for.
+    std::map<const SceneNode*, std::shared_ptr<const Image>> images;
     /// Lights that need the finished scene's bounding sphere (directional, constant, envmap) get it
     /// here.
     Point3f scene_center;

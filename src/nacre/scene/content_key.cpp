@@ -116,6 +116,7 @@ std::string content_key(const Scene& scene) {
             hash.add_all(mesh->positions);
             hash.add_all(mesh->triangles);
             hash.add_all(mesh->normals);
+            hash.add_all(mesh->uvs);
         }
     add_film(hash, scene.film);
     hash.add(std::uint64_t(scene.mode));

@@ -168,6 +168,18 @@ Image read_image(const std::filesystem::path& whole, const ImageReadOptions& opt
     }
 }
 
+Image parse_image(std::string_view bytes, const std::string& name,
+                  const ImageReadOptions& options) {
+    const Format content = format_of_content(bytes);
+    if (content != Format::png && content != Format::jpeg)
+        throw InputError(fmt::format("{}: is neither PNG nor JPEG", name));
+    try {
+        return image_formats::decode_ldr(bytes, options.raw);
+    } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}", name, e.what()));
+    }
+}
+
 void write_image(const Image& image, const std::filesystem::path& file, float exposure) {
     if (image.width < 1 || image.height < 1 || image.channels.empty() ||
         image.data.size() != std::size_t(image.width) * image.height * image.channels.size())

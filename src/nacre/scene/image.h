@@ -54,6 +54,10 @@ struct ImageReadOptions {
 /// is not stored is black.
 Image read_image(const std::filesystem::path& file, const ImageReadOptions& options = {});
 
+/// A PNG or JPEG in memory; `name` is what it is called in messages.
+Image parse_image(std::string_view bytes, const std::string& name,
+                  const ImageReadOptions& options = {});
+
 /// Writes EXR (float32, ZIP, all channels and metadata), PFM (RGB), PNG (8 bit sRGB of `exposure`
 /// stops, clamped, alpha kept if there is one) or HDR by extension; the exposure of the other
 /// formats is 0. In PNG, noise of half a step that depends on nothing but the pixel's place breaks

@@ -37,7 +37,9 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options =
 const MeasuredMedium* translucent_material(std::string_view name);
 
 struct MeshSceneOptions {
-    std::string material = "marble";       ///< a measured medium (optics/media.h), or skin
+    /// A measured medium (optics/media.h), or skin. Unset: a glTF's own materials if it has any,
+    /// else marble.
+    std::optional<std::string> material = {};
     std::optional<double> height_mm = {};  ///< how tall the object is; unset: 100 mm
     int width = 512, height = 512;
     std::optional<ColorMode> mode = {};
@@ -50,7 +52,8 @@ struct MeshSceneOptions {
 /// translucency, soft environment). The mesh is scaled to its height, y is up and +z the front; a
 /// mesh that is inside out is turned round. Scene units are millimetres. The medium is the measured
 /// one, or that of <medium type="skin"> with its defaults, which makes the scene spectral; either
-/// with reduced coefficients and isotropic scattering. Integrator volpath, 64 samples.
+/// with reduced coefficients and isotropic scattering. A glTF with materials has those instead
+/// (docs/gltf.md). Integrator volpath, 64 samples.
 /// Throws InputError for unknown media, unreadable or flat meshes.
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options = {});
 /// The same for a mesh in memory, which is not changed.

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "nacre/scene/gltf_shapes.h"
 #include "nacre/scene/legacy_settings.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
@@ -146,7 +147,8 @@ const Medium* add_medium(const SceneNode& node, Scene& scene, BuildContext& cont
     return medium.get();
 }
 
-Scene build_scene(const SceneNodePtr& tree, BuildContext& context, std::optional<ColorMode> mode) {
+Scene build_scene(const SceneNodePtr& given, BuildContext& context, std::optional<ColorMode> mode) {
+    const SceneNodePtr tree = with_gltf_shapes(given, context);
     const SceneNode& root = *tree;
     Scene scene;
     scene.root = tree;

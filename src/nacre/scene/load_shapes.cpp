@@ -1,9 +1,7 @@
 // Shapes of a scene file, with their material, media and light.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "nacre/geometry/figure.h"
-#include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
@@ -43,25 +41,9 @@ std::uint32_t add_read(const SceneNode& node, std::shared_ptr<Mesh> mesh, RaySce
 std::uint32_t add_mesh_file(const SceneNode& node, RayScene& rays, BuildContext& context) {
     const auto in_memory = context.meshes.find(&node);
     if (in_memory != context.meshes.end()) return add_read(node, in_memory->second, rays);
-    MeshOptions options;
-    options.to_world = node.get_transform("to_world");
-    if (node.type == "serialized") {
-        const std::int64_t index = node.get_int("shape_index", 0);
-        if (index < 0 || index > 1'000'000)
-            node.fail_at("shape_index", fmt::format("there is no mesh of number {}", index));
-        options.shape_index = static_cast<int>(index);
-    }
-    if (node.has("flip_tex_coords"))
-        options.flip_tex_coords = node.get_bool("flip_tex_coords", false);
-    const std::filesystem::path file = context.file(node, "filename");
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool gltf = node.type == "gltf" && extension == ".glb";
-    if (extension != "." + node.type && !gltf)
-        node.fail_at("filename", fmt::format("{} reads .{} files, not '{}'", node.describe(),
-                                             node.type, file.filename().string()));
-    return add_read(node, load_mesh(file, options), rays);
+    // Options first: a wrong one is told before the file is looked for.
+    const MeshOptions options = read_mesh_options(node);
+    return add_read(node, load_mesh(find_mesh_file(node, context), options), rays);
 }
 
 std::uint32_t add_built(const SceneNode& node, Mesh mesh, RayScene& rays) {
@@ -177,14 +159,6 @@ const SceneNode* only_child(const SceneNode& shape, const char* tag) {
     return found.empty() ? nullptr : found[0]->node.get();
 }
 
-std::string name_of(const SceneNode& shape) {
-    if (!shape.id.empty()) return shape.id;
-    for (const SceneValue& v : shape.values)
-        if (v.name == "filename")
-            if (const auto* file = std::get_if<std::string>(&v.value)) return *file;
-    return shape.type;
-}
-
 void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const Mesh* mesh,
                          BuildContext& context) {
     const auto warn = [&](const std::string& message) {
@@ -215,39 +189,52 @@ void warn_about_interior(const SceneNode& node, const ShapeBinding& shape, const
         warn(message);
 }
 
-/// A glTF's own materials are not read: said where the scene gives none instead.
-void warn_about_materials(const SceneNode& node, bool shines, BuildContext& context) {
-    if (shines || context.meshes.contains(&node) || !node.has("filename")) return;
-    std::string names;
-    try {
-        for (const GltfMaterial& m : load_gltf_summary(context.file(node, "filename")).materials)
-            if (m.used)
-                names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", m.name,
-                                     fmt::join(m.properties, ", "));
-    } catch (const InputError&) {
-        return;  // the reader of the geometry says it with its place
+}  // namespace
+
+MeshOptions read_mesh_options(const SceneNode& node) {
+    MeshOptions options;
+    options.to_world = node.get_transform("to_world");
+    if (node.type == "serialized") {
+        const std::int64_t index = node.get_int("shape_index", 0);
+        if (index < 0 || index > 1'000'000)
+            node.fail_at("shape_index", fmt::format("there is no mesh of number {}", index));
+        options.shape_index = static_cast<int>(index);
     }
-    if (!names.empty())
-        context.warnings.push_back(
-            fmt::format("{}: the file's own materials are left out: {}; give the shape a <bsdf>",
-                        node.location.str(), names));
+    if (node.has("flip_tex_coords"))
+        options.flip_tex_coords = node.get_bool("flip_tex_coords", false);
+    return options;
 }
 
-}  // namespace
+std::filesystem::path find_mesh_file(const SceneNode& node, BuildContext& context) {
+    const std::filesystem::path file = context.file(node, "filename");
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool gltf = node.type == "gltf" && extension == ".glb";
+    if (extension != "." + node.type && !gltf)
+        node.fail_at("filename", fmt::format("{} reads .{} files, not '{}'", node.describe(),
+                                             node.type, file.filename().string()));
+    return file;
+}
+
+std::string name_of_shape(const SceneNode& shape) {
+    if (!shape.id.empty()) return shape.id;
+    for (const SceneValue& v : shape.values)
+        if (v.name == "filename")
+            if (const auto* file = std::get_if<std::string>(&v.value)) return *file;
+    return shape.type;
+}
 
 void add_shape(const SceneNode& node, Scene& scene, BuildContext& context,
                std::vector<PendingAreaLight>& lights) {
     const AddGeometry add_geometry = geometry_of(node);
     ShapeBinding shape;
-    shape.name = name_of(node);
+    shape.name = name_of_shape(node);
     const SceneNode* emitter = only_child(node, "emitter");
     if (emitter && emitter->type != "area")
         emitter->fail(
             fmt::format("{} cannot stand in a shape; only type 'area' can", emitter->describe()));
     const SceneNode* bsdf = only_child(node, "bsdf");
-    if (node.type == "gltf" && !bsdf && !node.child("interior", "medium") &&
-        node.children_of("subsurface").empty())
-        warn_about_materials(node, emitter != nullptr, context);
     shape.material =
         bsdf ? make_material(*bsdf, context) : default_material(node, emitter != nullptr, context);
     if (const SceneNode::Child* medium = node.child("interior", "medium"))

@@ -15,8 +15,10 @@ struct MaterialType {
 };
 
 constexpr MaterialType types[] = {
+    {"blendbsdf", make_blendbsdf},
     {"conductor", make_conductor},
     {"dielectric", make_dielectric},
+    {"difftrans", make_difftrans},
     {"diffuse", make_diffuse},
     {"hk", make_hk},
     {"mask", make_mask},

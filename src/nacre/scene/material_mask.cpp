@@ -1,5 +1,7 @@
 // <bsdf type="mask">: a material that is there with the share `opacity` (0.5; a number or texture
-// within [0, 1]) and lets light pass straight on with the rest.
+// within [0, 1]) and lets light pass straight on with the rest. With `cutoff` (within [0, 1]) it is
+// there wholly where `opacity` is at least that, and elsewhere not at all (nacre's, as glTF's
+// MASK).
 #include "nacre/scene/material_types.h"
 
 namespace nacre {
@@ -7,8 +9,8 @@ namespace {
 
 class Masked final : public Material {
   public:
-    Masked(MaterialPtr material, TexturePtr opacity)
-        : material_(std::move(material)), opacity_(std::move(opacity)) {}
+    Masked(MaterialPtr material, TexturePtr opacity, std::optional<float> cutoff)
+        : material_(std::move(material)), opacity_(std::move(opacity)), cutoff_(cutoff) {}
 
     unsigned flags() const override { return material_->flags() | has_null; }
     Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
@@ -45,18 +47,23 @@ class Masked final : public Material {
 
   private:
     float opacity(const SurfacePoint& at) const {
-        return std::clamp(opacity_->eval_scalar(at.uv), 0.f, 1.f);
+        const float value = opacity_->eval_scalar(at.uv);
+        if (cutoff_) return value >= *cutoff_ ? 1.f : 0.f;
+        return std::clamp(value, 0.f, 1.f);
     }
 
     MaterialPtr material_;
     TexturePtr opacity_;
+    std::optional<float> cutoff_;
 };
 
 }  // namespace
 
 MaterialPtr make_mask(const SceneNode& node, BuildContext& context) {
+    std::optional<float> cutoff;
+    if (node.has("cutoff")) cutoff = float(node.get_float_in("cutoff", 0.5, 0, 1));
     return std::make_shared<Masked>(nested_materials(node, 1, 1, context).front(),
-                                    get_reflectance(node, "opacity", 0.5f, context));
+                                    get_reflectance(node, "opacity", 0.5f, context), cutoff);
 }
 
 }  // namespace nacre

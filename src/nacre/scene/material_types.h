@@ -5,9 +5,11 @@
 
 namespace nacre {
 
+MaterialPtr make_blendbsdf(const SceneNode& node, BuildContext& context);
 MaterialPtr make_conductor(const SceneNode& node, BuildContext& context);
 MaterialPtr make_dielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
+MaterialPtr make_difftrans(const SceneNode& node, BuildContext& context);
 MaterialPtr make_hk(const SceneNode& node, BuildContext& context);
 MaterialPtr make_mask(const SceneNode& node, BuildContext& context);
 MaterialPtr make_null(const SceneNode& node, BuildContext& context);

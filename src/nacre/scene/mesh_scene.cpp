@@ -1,7 +1,6 @@
 // A bare mesh as a scene. Lengths are millimetres, y is up, the object stands on y = 0 and is
 // looked at from +z.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "nacre/layers/skin.h"
 #include "nacre/optics/media.h"
 #include "nacre/optics/names.h"
+#include "nacre/scene/gltf_shapes.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
 #include "nacre/scene/write_nodes.h"
@@ -65,6 +65,10 @@ NodePtr camera_for(const Stage& stage, const MeshSceneOptions& options) {
     return camera;
 }
 
+std::string_view material_of(const MeshSceneOptions& options) {
+    return options.material ? std::string_view(*options.material) : "marble";
+}
+
 /// What fills the object, and its index of refraction.
 struct Filling {
     NodePtr medium;
@@ -96,35 +100,74 @@ NodePtr translucent_shape(const Filling& filling) {
     return shape;
 }
 
-/// The mesh in millimetres, centred above the origin, standing on y = 0, its outside outside.
-std::shared_ptr<Mesh> placed(Mesh mesh, double height_mm) {
-    const Box3f box = mesh.bounds();
-    const std::string name = mesh.name.empty() ? "mesh" : mesh.name;
-    if (box.empty() || !(box.diagonal().y > 0.f))
-        throw InputError(name + ": has no height along y, which is up; turn it upright");
-    const float scale = static_cast<float>(height_mm) / box.diagonal().y;
-    const Point3f foot{box.center().x, box.lower.y, box.center().z};
-    for (Point3f& p : mesh.positions) p = (p - foot) * scale;
-    if (inspect(mesh).inside_out()) {
-        for (Mesh::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-        for (Vec3f& n : mesh.normals) n = -n;
+/// Where the object comes to stand: in millimetres, centred above the origin, on y = 0.
+struct Placement {
+    Point3f foot;
+    float scale;
+
+    Placement(const Box3f& box, const std::string& name, double height_mm) {
+        if (box.empty() || !(box.diagonal().y > 0.f))
+            throw InputError(name + ": has no height along y, which is up; turn it upright");
+        scale = static_cast<float>(height_mm) / box.diagonal().y;
+        foot = {box.center().x, box.lower.y, box.center().z};
     }
-    return std::make_shared<Mesh>(std::move(mesh));
+
+    /// The mesh there, its outside outside.
+    std::shared_ptr<Mesh> place(Mesh mesh) const {
+        for (Point3f& p : mesh.positions) p = (p - foot) * scale;
+        if (inspect(mesh).inside_out()) {
+            for (Mesh::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+            for (Vec3f& n : mesh.normals) n = -n;
+        }
+        return std::make_shared<Mesh>(std::move(mesh));
+    }
+};
+
+double height_of(const MeshSceneOptions& options) {
+    const double height = options.height_mm.value_or(100.0);
+    if (!(height > 0.0) || !std::isfinite(height))
+        throw InputError(
+            fmt::format("the height of the object must be positive; got {} mm", height));
+    return height;
 }
 
-/// One warning that names every material of a glTF and what of it the picture will not show; empty
-/// if there is none.
-std::string materials_left_out(const std::filesystem::path& file, std::string_view made_of) {
-    if (!has_gltf_extension(file)) return {};
-    std::string list;
-    for (const GltfMaterial& m : load_gltf_summary(file).materials) {
-        if (!m.used) continue;
-        list += fmt::format("{}'{}' ({})", list.empty() ? "" : ", ", m.name,
-                            fmt::join(m.properties, ", "));
+/// The placed shapes, whose meshes are in the context, with all that is around them.
+Scene arrange(const std::vector<NodePtr>& shapes, BuildContext& context,
+              const MeshSceneOptions& options) {
+    Box3f box;
+    for (const NodePtr& shape : shapes) box.extend(context.meshes.at(shape.get())->bounds());
+    const Stage stage{Vec3d(box.center()), 0.5 * length(Vec3d(box.diagonal()))};
+    auto root = make_node("scene", "");
+    auto integrator = make_node("integrator", "volpath");
+    add(root, integrator);
+    add(root, camera_for(stage, options));
+    auto sky = make_node("emitter", "constant");
+    set_rgb(sky, "radiance", {0.13f, 0.14f, 0.16f});
+    add(root, sky);
+    // With the sky and the floor a white object in the key light comes to just below 1. The light
+    // from behind is stronger, because what passes through the object is little; it stands high
+    // enough to stay out of the picture.
+    add(root, lamp(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
+    add(root, lamp(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
+    add(root, floor_under(stage, height_of(options)));
+    for (const NodePtr& shape : shapes) {
+        if (options.crease_angle) set(shape, "crease_angle", "float", *options.crease_angle);
+        add(root, shape);
     }
-    if (list.empty()) return {};
-    return fmt::format("{}: its own materials are left out: {}; the object is made of {} instead",
-                       file.string(), list, made_of);
+    return build_scene(root, context, options.mode);
+}
+
+/// A glTF in its own materials.
+Scene make_gltf_scene(const GltfObject& object, const std::string& name,
+                      const MeshSceneOptions& options) {
+    Box3f box;
+    for (const GltfPart& part : object.parts) box.extend(part.mesh->bounds());
+    const Placement placement(box, name, height_of(options));
+    GltfObject placed = object;
+    for (GltfPart& part : placed.parts) part.mesh = placement.place(*part.mesh);
+    BuildContext context;
+    const auto shapes = make_gltf_shapes(placed, name, 1. / placement.scale, context);
+    return arrange(shapes, context, options);
 }
 
 }  // namespace
@@ -139,46 +182,25 @@ const MeasuredMedium* translucent_material(std::string_view name) {
 }
 
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {
-    const Filling inside = filling(options.material);
-    const double height = options.height_mm.value_or(100.0);
-    if (!(height > 0.0) || !std::isfinite(height))
-        throw InputError(
-            fmt::format("the height of the object must be positive; got {} mm", height));
-    const std::shared_ptr<Mesh> object = placed(*mesh, height);
-    const Box3f box = object->bounds();
-    const Stage stage{Vec3d(box.center()), 0.5 * length(Vec3d(box.diagonal()))};
-
-    auto root = make_node("scene", "");
-    auto integrator = make_node("integrator", "volpath");
-    add(root, integrator);
-    add(root, camera_for(stage, options));
-    auto sky = make_node("emitter", "constant");
-    set_rgb(sky, "radiance", {0.13f, 0.14f, 0.16f});
-    add(root, sky);
-    // With the sky and the floor a white object in the key light comes to just below 1. The light
-    // from behind is stronger, because what passes through the object is little; it stands high
-    // enough to stay out of the picture.
-    add(root, lamp(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
-    add(root, lamp(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
-    add(root, floor_under(stage, height));
+    const Filling inside = filling(material_of(options));
+    const std::string name = mesh->name.empty() ? "mesh" : mesh->name;
+    const Placement placement(mesh->bounds(), name, height_of(options));
     auto shape = translucent_shape(inside);
-    if (!object->name.empty()) shape->id = object->name;
-    if (options.crease_angle) set(shape, "crease_angle", "float", *options.crease_angle);
-    add(root, shape);
-
+    if (!mesh->name.empty()) shape->id = mesh->name;
     BuildContext context;
-    context.meshes[shape.get()] = object;
-    return build_scene(root, context, options.mode);
+    context.meshes[shape.get()] = placement.place(*mesh);
+    return arrange({shape}, context, options);
 }
 
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {
-    filling(options.material);  // a wrong name is told before a large mesh is read
+    filling(material_of(options));  // a wrong name is told before a large mesh is read
+    if (has_gltf_extension(file) && !options.material) {
+        const GltfObject object = load_gltf(file);
+        if (object.has_materials()) return make_gltf_scene(object, file.string(), options);
+    }
     std::shared_ptr<Mesh> mesh = load_mesh(file);
     if (mesh->name.empty()) mesh->name = file.filename().string();
-    Scene scene = make_mesh_scene(std::move(mesh), options);
-    if (const std::string text = materials_left_out(file, options.material); !text.empty())
-        scene.warnings.push_back(text);
-    return scene;
+    return make_mesh_scene(std::move(mesh), options);
 }
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 // From a tree of nodes to a Scene, in parts. Used by the loaders only.
 #include <optional>
 
+#include "nacre/geometry/mesh_io.h"
 #include "nacre/scene/build.h"
 #include "nacre/scene/scene.h"
 
@@ -13,6 +14,12 @@ SamplerSettings read_sampler(const SceneNode& node);
 
 /// The medium that `node` stands for, kept alive by the scene.
 const Medium* add_medium(const SceneNode& node, Scene& scene, BuildContext& context);
+
+/// What a <shape> of a mesh file says to its reader, and the file.
+MeshOptions read_mesh_options(const SceneNode& shape);
+std::filesystem::path find_mesh_file(const SceneNode& shape, BuildContext& context);
+/// The id of a shape, else the file that it names, else its type.
+std::string name_of_shape(const SceneNode& shape);
 
 /// Light of a shape that cannot be built before all shapes are known.
 struct PendingAreaLight {

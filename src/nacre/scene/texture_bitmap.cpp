@@ -2,7 +2,7 @@
 //
 //   filename                              EXR, PFM, HDR, PNG or JPEG
 //   filter_type  bilinear (default), nearest
-//   wrap_mode    repeat (default), mirror, clamp
+//   wrap_mode    repeat (default), mirror, clamp; wrap_mode_v where v is another (nacre's)
 //   raw          false; true takes the stored numbers as they are: neither sRGB nor colours
 //   to_uv        transform of the texture coordinates
 //
@@ -44,6 +44,10 @@ int wrap_index(int i, int n, Wrap wrap) {
     return std::clamp(i, 0, n - 1);
 }
 
+Wrap wrap_of(std::string_view word) {
+    return word == "repeat" ? Wrap::repeat : word == "mirror" ? Wrap::mirror : Wrap::clamp;
+}
+
 /// Keeps texel coordinates where int does not overflow; NaN becomes a bound.
 float bounded(float x) { return x > -1e9f ? std::min(x, 1e9f) : -1e9f; }
 
@@ -52,7 +56,7 @@ class Bitmap final : public Texture {
     struct Options {
         ColorRole role;
         bool nearest, raw;
-        Wrap wrap;
+        Wrap wrap_u, wrap_v;
         Transform to_uv;
     };
 
@@ -126,8 +130,8 @@ class Bitmap final : public Texture {
         const Point3f p = options_.to_uv.point({uv.x, uv.y, 0.f});
         const float x = bounded(p.x * float(width_)), y = bounded(p.y * float(height_));
         const auto index = [&](int i, int j) {
-            return std::size_t(wrap_index(j, height_, options_.wrap)) * width_ +
-                   wrap_index(i, width_, options_.wrap);
+            return std::size_t(wrap_index(j, height_, options_.wrap_v)) * width_ +
+                   wrap_index(i, width_, options_.wrap_u);
         };
         if (options_.nearest) return texel(index(int(std::floor(x)), int(std::floor(y))));
         const int i = int(std::floor(x - 0.5f)), j = int(std::floor(y - 0.5f));
@@ -171,10 +175,16 @@ TexturePtr make_bitmap(const SceneNode& node, ColorRole role, BuildContext& cont
     options.role = role;
     options.nearest = node.get_choice("filter_type", {"bilinear", "nearest"}) == "nearest";
     const std::string wrap = node.get_choice("wrap_mode", {"repeat", "mirror", "clamp"});
-    options.wrap = wrap == "repeat" ? Wrap::repeat : wrap == "mirror" ? Wrap::mirror : Wrap::clamp;
+    options.wrap_u = options.wrap_v = wrap_of(wrap);
+    if (node.has("wrap_mode_v"))
+        options.wrap_v = wrap_of(node.get_choice("wrap_mode_v", {"repeat", "mirror", "clamp"}));
     options.raw = node.get_bool("raw", false);
     options.to_uv = node.get_transform("to_uv");
 
+    if (const auto in_memory = context.images.find(&node); in_memory != context.images.end()) {
+        node.get_string("picture", "");  // what it is, for the scene's content key
+        return std::make_shared<Bitmap>(*in_memory->second, options);
+    }
     const Image image = read_image(context.file(node, "filename"), {.raw = options.raw});
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
