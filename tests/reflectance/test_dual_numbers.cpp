@@ -12,6 +12,7 @@
 #include "nacre/reflectance/he_torrance.h"
 #include "nacre/reflectance/lafortune.h"
 #include "nacre/reflectance/lambert.h"
+#include "nacre/reflectance/metallic_roughness.h"
 #include "nacre/reflectance/models.h"
 #include "nacre/reflectance/oren_nayar.h"
 #include "nacre/reflectance/phong.h"
