@@ -18,8 +18,10 @@ std::string boundary(double alpha, double index = 1.5, const std::string& distri
                            word("distribution", distribution) + xml::number("alpha", alpha) +
                                xml::number("int_ior", index) + xml::number("ext_ior", 1));
 }
-std::string matter(double albedo) {
-    return xml::medium("interior", xml::number("sigma_t", 2) + xml::number("albedo", albedo));
+std::string matter(double albedo, double g = 0.) {
+    return xml::medium("interior", xml::number("sigma_t", 2. / (1. - g)) +
+                                       xml::number("albedo", albedo) + "<phase type=\"hg\">" +
+                                       xml::number("g", g) + "</phase>");
 }
 
 class RoughHalfSpaces : public Techniques {
@@ -31,6 +33,22 @@ class RoughHalfSpaces : public Techniques {
                      xml::sphere({}, 1, boundary(alpha, index, distribution) + matter(1)))
             .shapes[0]
             .material;
+    }
+    /// What a slab returns of the even light that has entered it, and the standard error: all that
+    /// comes back but for what the boundary reflects.
+    std::pair<double, double> returned(const std::string& technique, double alpha,
+                                       const std::string& inside, const EstimateOptions& options) {
+        const RayMaker from_everywhere = [](Vec2f u) {
+            const Vec3f d = square_to_cosine_hemisphere(u);
+            return Ray{Point3f{} + d * 40.f, -d};
+        };
+        Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                        slab(12, boundary(alpha) + inside));
+        choose_technique(s, {technique});
+        const RadianceEstimate e = look(s, from_everywhere, options);
+        const ObjectBoundary b = ObjectBoundary::of(s.shapes[0]);
+        const double enters = b.mean_transmittance();
+        return {(e.mean[1] - b.mean_reflectance()) / enters, e.error[1] / enters};
     }
 };
 
@@ -144,6 +162,24 @@ TEST_F(RoughHalfSpaces, AreLikeSmoothOnesWhereFacetsAreNearlyFlat) {
     }
 }
 
+TEST_F(RoughHalfSpaces, OfNarrowPhaseFunctionsAreQuickAndTheirNodesCancel) {
+    const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                          xml::sphere({}, 1, boundary(1e-3) + matter(1)));
+    const ProfileMedium media[] = {{10., 0.01, 0.99, 1.5}, {10., 1., 0.99, 1.5}};
+    for (const double factor : rough_return(ObjectBoundary::of(s.shapes[0]), media))
+        EXPECT_NEAR(factor, 1., 0.01);
+}
+
+TEST_F(RoughHalfSpaces, StopWhenAsked) {
+    const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                          xml::sphere({}, 1, boundary(0.2) + matter(1)));
+    const std::atomic<bool> stop = true;
+    const ProfileMedium media[] = {{1., 0.01, 0., 1.5}};
+    EXPECT_THROW(rough_return(ObjectBoundary::of(s.shapes[0]), media,
+                              Work(&stop, Work::Clock::time_point::max(), {})),
+                 Stopped);
+}
+
 TEST_F(RoughHalfSpaces, LoseMoreTheRougherTheyAreIfTheyAreWhite) {
     for (const char* distribution : {"ggx", "beckmann"}) {
         double before = 1.;
@@ -168,39 +204,34 @@ TEST_F(RoughHalfSpaces, OfNoMatterReturnNothing) {
     EXPECT_TRUE(rough_return(ObjectBoundary(1.5f), black).empty());
 }
 
-TEST_F(RoughHalfSpaces, AreSimulatedAndApproximatedAlike) {
-    // All that comes back in even light: what the boundary reflects, and the half space's share of
-    // what it lets in.
-    const RayMaker from_everywhere = [](Vec2f u) {
-        const Vec3f d = square_to_cosine_hemisphere(u);
-        return Ray{Point3f{} + d * 40.f, -d};
+TEST_F(RoughHalfSpaces, AreSimulatedAlike) {
+    struct Case {
+        double alpha, albedo, g;
     };
-    const auto returned = [&](const std::string& technique, double alpha, double a, int samples) {
-        Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                        slab(12, boundary(alpha) + matter(a)));
-        choose_technique(s, {technique});
-        const RadianceEstimate e = look(s, from_everywhere, {.pixels = 500, .samples = samples});
-        const ObjectBoundary b = ObjectBoundary::of(s.shapes[0]);
-        const double enters = b.mean_transmittance();
-        return std::pair{(e.mean[1] - b.mean_reflectance()) / enters, e.error[1] / enters};
-    };
-    for (const double alpha : {0.2, 0.4})
-        for (const double a : {0.97, 0.7}) {
-            const auto facets = material(alpha);
-            const ProfileMedium m{2. * a, 2. * (1. - a), 0., 1.5};
-            const double expected = RoughHalfSpace(*facets).albedo(m);
-            const auto [simulated, error] = returned("volpath", alpha, a, 64);
-            EXPECT_NEAR(simulated, expected, 4.5 * error + 0.002) << alpha << ' ' << a;
-            EXPECT_LT(error, 0.02 * expected);
-            // What techniques are off, they are off behind a smooth boundary.
-            for (const char* technique : {"brdf", "hanrahan_krueger", "random_walk"}) {
-                const auto [smooth, e0] = returned(technique, 0., a, 32);
-                const auto [rough, e1] = returned(technique, alpha, a, 32);
-                EXPECT_NEAR(rough / smooth, expected / half_space_albedo(m),
-                            4.5 * std::hypot(e0 / smooth, e1 / smooth) + 0.01)
-                    << technique << ' ' << alpha << ' ' << a;
-            }
+    for (const Case& c : {Case{0.2, 0.97, 0.}, {0.4, 0.97, 0.}, {0.4, 0.7, 0.}, {0.4, 0.97, 0.9}}) {
+        const auto facets = material(c.alpha);
+        const double a = c.albedo, expected = RoughHalfSpace(*facets).albedo({a, 1. - a, c.g, 1.5});
+        const auto [simulated, error] =
+            returned("volpath", c.alpha, matter(a, c.g), {.pixels = 400, .samples = 64});
+        EXPECT_NEAR(simulated, expected, 4.5 * error + 0.002)
+            << "alpha " << c.alpha << " albedo " << a << " g " << c.g;
+        EXPECT_LT(error, 0.025 * expected);
+    }
+}
+
+TEST_F(RoughHalfSpaces, AreOffByAsMuchAsSmoothOnesUnderTechniques) {
+    for (const double a : {0.97, 0.7}) {
+        const auto facets = material(0.4);
+        const ProfileMedium m{a, 1. - a, 0., 1.5};
+        const double expected = RoughHalfSpace(*facets).albedo(m) / half_space_albedo(m);
+        for (const char* technique : {"brdf", "hanrahan_krueger", "random_walk"}) {
+            const EstimateOptions options{.pixels = 400, .samples = 32};
+            const auto [smooth, e0] = returned(technique, 0., matter(a), options);
+            const auto [rough, e1] = returned(technique, 0.4, matter(a), options);
+            EXPECT_NEAR(rough / smooth, expected, 4.5 * std::hypot(e0 / smooth, e1 / smooth) + 0.01)
+                << technique << " albedo " << a;
         }
+    }
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr int most_strangers = 64;
 
 }  // namespace
 
-double half_space_albedo(const ProfileMedium& m) {
+double half_space_albedo(const ProfileMedium& m, int nodes) {
     const LayerStack half_space{{{.sigma_s = m.sigma_s,
                                   .sigma_a = m.sigma_a,
                                   .g = m.g,
@@ -33,7 +33,7 @@ double half_space_albedo(const ProfileMedium& m) {
                                 1.,
                                 m.eta};
     const double cosine[] = {1.};
-    const LayerTotals t = adding_doubling(half_space, cosine).diffuse;
+    const LayerTotals t = adding_doubling(half_space, cosine, {}, {.nodes = nodes}).diffuse;
     return std::clamp((t.reflectance - t.specular) / (1. - t.specular), 0., 1.);
 }
 

@@ -87,7 +87,7 @@ double RoughHalfSpace::albedo(const ProfileMedium& m) const {
                                   .eta = eta_}},
                                 eta_,
                                 eta_};
-    const AddingDoublingResult r = adding_doubling(half_space, cosine_, cosine_);
+    const AddingDoublingResult r = adding_doubling(half_space, cosine_, cosine_, {.nodes = nodes});
     std::vector<double> scattered(size() * size());
     for (std::size_t from = 0; from < size(); ++from) {
         // Flux per interval; totals are more accurate than distributions.
@@ -108,14 +108,16 @@ double RoughHalfSpace::albedo(const ProfileMedium& m) const {
 }
 
 std::vector<double> rough_return(const ObjectBoundary& boundary,
-                                 std::span<const ProfileMedium> media) {
+                                 std::span<const ProfileMedium> media, const Work& work) {
     if (!boundary.rough()) return {};
+    WorkPhase phase(work, "losses of the facets", media.size());
     const RoughHalfSpace rough(*boundary.rough());
     std::vector<double> result(media.size());
     tbb::parallel_for(std::size_t(0), media.size(), [&](std::size_t i) {
         check(media[i]);
-        const double smooth = half_space_albedo(media[i]);
+        const double smooth = half_space_albedo(media[i], RoughHalfSpace::nodes);
         result[i] = smooth > 0. ? rough.albedo(media[i]) / smooth : 1.;
+        phase.advance();
     });
     return result;
 }

@@ -169,7 +169,7 @@ class TechniqueIntegrator final : public Integrator {
   public:
     TechniqueIntegrator(const Scene& scene, const Work& work) {
         for (const ShapeBinding& shape : scene.shapes)
-            surfaces_.push_back(surface_of(scene, shape));
+            surfaces_.push_back(surface_of(scene, shape, work));
         Translucencies local(scene.shapes.size());
         for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
             if (scene.shapes[i].subsurface) local[i] = make(scene, i, make_stand_in, nullptr, work);
@@ -217,12 +217,13 @@ class TechniqueIntegrator final : public Integrator {
         ObjectBoundary boundary{1.f};
         std::vector<double> rough_return{};
     };
-    static Surface surface_of(const Scene& scene, const ShapeBinding& shape) {
+    static Surface surface_of(const Scene& scene, const ShapeBinding& shape, const Work& work) {
         if (!shape.subsurface) return {};
         return at_place(*shape.subsurface, [&] {
             Surface s{ObjectBoundary::of(shape)};
             s.rough_return = rough_return(
-                s.boundary, medium_in_bands(*shape.interior, s.boundary.eta(), Bands(scene.mode)));
+                s.boundary, medium_in_bands(*shape.interior, s.boundary.eta(), Bands(scene.mode)),
+                work);
             return s;
         });
     }
