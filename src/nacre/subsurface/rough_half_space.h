@@ -24,9 +24,9 @@ class RoughHalfSpace {
     /// Behind a rough boundary, whose rough_boundary_eta() is positive. Takes some 0.1 s.
     explicit RoughHalfSpace(const Material& boundary);
 
-    /// The share of the even light that entered which leaves again, within [0, 1], to some 0.2 %,
-    /// and as quadrature of that many nodes makes it where the phase function is narrow. Azimuths
-    /// are averaged. The medium's index is taken to be that of the boundary. Takes some 50 ms.
+    /// The share of the even light that entered which leaves again, within [0, 1], to some 0.2 %;
+    /// less accurate for narrow phase functions, of which `nodes` see the broad part. Azimuths are
+    /// averaged. The medium's index is taken to be that of the boundary. Takes some 50 ms.
     double albedo(const ProfileMedium& medium) const;
 
     /// Nodes of adding and doubling.
