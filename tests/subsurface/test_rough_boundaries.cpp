@@ -40,13 +40,10 @@ TEST_F(RoughBoundaries, LetPassWhatFresnelSaysWhereTheyAreNearlySmooth) {
             << mu;
     EXPECT_NEAR(boundary.mean_transmittance(), 1. - diffuse_reflectance_external(1.5), 2e-3);
     EXPECT_NEAR(boundary.mean_reflectance(), diffuse_reflectance_external(1.5), 2e-3);
-    EXPECT_NEAR(boundary.white_return(), 1., 5e-3);
-    EXPECT_EQ(smooth.white_return(), 1.);
 }
 
 TEST_F(RoughBoundaries, LoseNoMoreThanTheFacetsDo) {
     for (const char* distribution : {"ggx", "beckmann"}) {
-        double returned = 1.001;
         for (const double alpha : {0.05, 0.3, 0.6}) {
             const Scene s = scene(xml::integrator("path") + xml::constant_light() +
                                   xml::sphere({}, 1, rough(alpha, distribution) + matter(1, 0)));
@@ -54,45 +51,47 @@ TEST_F(RoughBoundaries, LoseNoMoreThanTheFacetsDo) {
             // One facet each: nothing is gained, and little lost.
             EXPECT_LE(b.mean_transmittance() + b.mean_reflectance(), 1.001) << alpha;
             EXPECT_GE(b.mean_transmittance() + b.mean_reflectance(), 0.85) << alpha;
-            // The rougher, the more is lost, at each reflection from inside.
-            EXPECT_LT(b.white_return(), returned) << alpha;
-            returned = b.white_return();
-            EXPECT_GT(returned, 0.4) << alpha;
         }
     }
 }
 
 TEST_F(RoughBoundaries, OfWhiteObjectsInEvenLightAreAsBrightAsSimulated) {
-    // In even light a white object looks the same whatever its shape: simulated on a small ball,
-    // where paths are short, approximated on a thick slab.
-    constexpr double alpha = 0.1;  // at 0.4 techniques are up to 6 % dark (docs/subsurface.md)
-    for (const Vec3f& from : {Vec3f{0, 0, 1}, Vec3f{0.8f, 0, 0.6f}}) {
-        const float x = from.x;
-        const RayMaker at_ball = [=](Vec2f u) {
-            const Point3f p{0.01f * u.x, 0.01f * u.y, 1.f};
-            return Ray{p + from * 3.f, -from};
-        };
-        const RadianceEstimate truth =
-            by("volpath", xml::constant_light() + xml::sphere({}, 1, rough(alpha) + matter(2, 0)),
-               at_ball, {.pixels = 1000, .samples = 16});
-        EXPECT_LT(truth.error[1], 0.005);
+    // Facets lose light, so that shape matters even in white objects (docs/subsurface.md): both are
+    // slabs, the simulated one as thick as it takes to be like any thicker one.
+    const Vec3f directions[] = {{0, 0, 1}, {0.8f, 0, 0.6f}};
+    const std::string light = xml::constant_light();
+    for (const double alpha : {0.1, 0.4}) {
+        const std::string white = rough(alpha) + matter(2, 0);
+        std::vector<RadianceEstimate> truth;
+        for (const Vec3f& from : directions) {
+            truth.push_back(by("volpath", light + slab(6, white), onto_the_middle(from, 5),
+                               {.pixels = 1000, .samples = 32}));
+            EXPECT_LT(truth.back().error[1], 0.003);
+        }
         for (const char* technique : {"brdf", "hanrahan_krueger", "surface", "two_pass"}) {
-            std::vector<std::pair<std::string, std::string>> options;
-            if (technique == std::string("two_pass"))
-                options = {{"error", "0.05"}, {"irradiance_samples", "64"}};
-            const RadianceEstimate e =
-                by(technique, xml::constant_light() + slab(30, rough(alpha) + matter(2, 0)),
-                   onto_the_middle(from, 5), {.pixels = 400, .samples = 64}, options);
-            EXPECT_NEAR(e.mean[1], truth.mean[1],
-                        4.5 * std::hypot(e.error[1], truth.error[1]) + 0.01)
-                << technique << " alpha " << alpha << " x " << x;
+            Scene s = scene(xml::integrator("path") + light + slab(30, white));
+            TechniqueChoice choice{technique};
+            if (choice.technique == "two_pass")
+                choice.options = {
+                    {"spacing", "2"}, {"irradiance_samples", "64"}, {"error", "0.05"}};
+            choose_technique(s, choice);
+            const auto integrator = make_technique_integrator(s);
+            for (std::size_t i = 0; i < std::size(directions); ++i) {
+                const RadianceEstimate e =
+                    estimate(s, *integrator, onto_the_middle(directions[i], 5),
+                             {.pixels = 400, .samples = 64});
+                EXPECT_NEAR(e.mean[1], truth[i].mean[1],
+                            4.5 * std::hypot(e.error[1], truth[i].error[1]) + 0.01)
+                    << technique << " alpha " << alpha << " direction " << i;
+            }
         }
     }
 }
 
 TEST_F(RoughBoundaries, OfAThickObjectInOneLightAreNearlyAsBrightAsSimulated) {
-    // A lamp above: the mirror lobe and what comes from below. The dipole lacks up to a tenth
-    // behind a smooth boundary, too.
+    // A lamp above: the mirror lobe and what comes from below. Behind a smooth boundary the dipole
+    // returns 1 % more than a half space does in even light, and a walk 2 %; which way the light
+    // comes from, they do not know.
     const std::string lamp = xml::shape(
         "rectangle",
         "<transform name=\"to_world\"><scale value=\"6\"/><rotate y=\"1\" angle=\"180\"/>"
@@ -107,7 +106,7 @@ TEST_F(RoughBoundaries, OfAThickObjectInOneLightAreNearlyAsBrightAsSimulated) {
          {"brdf", "hanrahan_krueger", "surface", "two_pass", "random_walk"}) {
         const RadianceEstimate e =
             by(technique, lamp + object, rays, {.pixels = 400, .samples = 16});
-        EXPECT_NEAR(e.mean[1] / truth.mean[1], 1., 0.12) << technique;
+        EXPECT_NEAR(e.mean[1] / truth.mean[1], 1., 0.05) << technique;
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "nacre/math/sampling.h"
 #include "nacre/optics/fresnel_moments.h"
-#include "nacre/render/sampler.h"
+#include "nacre/render/boundary_samples.h"
 #include "nacre/scene/subsurface.h"
 
 namespace nacre {
@@ -22,21 +22,12 @@ struct Shares {
 
 /// `direction(u)` makes the direction from which light comes.
 template <class F>
-Shares shares_of(const Material& material, int samples, std::uint64_t key, F&& direction) {
-    Sampler sampler(Sampler::Kind::sobol, 0, samples);
-    const Wavelengths w = Wavelengths::rgb_bands();
+Shares shares_of(const Material& material, int samples, std::uint64_t key, const F& direction) {
     Shares shares;
-    for (int i = 0; i < samples; ++i) {
-        sampler.start(key, std::uint32_t(i));
-        const Vec3f wo = direction(sampler.next2d());
-        const float u1 = sampler.next1d();
-        const auto s = material.sample(SurfacePoint{}, wo, u1, sampler.next2d(), w);
-        if (!s) continue;
-        // Weights are those of radiance, which changes by 1 / eta^2; power does not.
-        const bool back = s->wi.z * wo.z > 0.f;
-        (back ? shares.reflected : shares.transmitted) +=
-            double(s->weight[0] * s->eta * s->eta) / samples;
-    }
+    for_boundary_samples(material, samples, key, direction,
+                         [&](const Vec3f&, double share, bool back) {
+                             (back ? shares.reflected : shares.transmitted) += share;
+                         });
     return shares;
 }
 
@@ -64,16 +55,18 @@ ObjectBoundary::ObjectBoundary(const Material& material)
     table_ = std::make_shared<const std::vector<float>>(std::move(table));
     const Shares outside = shares_of(material, samples_of_means, table_size,
                                      [](Vec2f u) { return square_to_cosine_hemisphere(u); });
-    const Shares inside = shares_of(material, samples_of_means, table_size + 1,
-                                    [](Vec2f u) { return -square_to_cosine_hemisphere(u); });
     mean_transmittance_ = outside.transmitted;
     mean_reflectance_ = outside.reflected;
-    white_return_ = inside.transmitted / (1. - inside.reflected);
 }
 
 ObjectBoundary ObjectBoundary::of(const ShapeBinding& shape) {
     if (shape.material->rough_boundary_eta() > 0.f) return ObjectBoundary(*shape.material);
     return ObjectBoundary(boundary_eta(shape));
+}
+
+float ObjectBoundary::over_smooth(float cosine) const {
+    const float smooth = 1.f - fresnel_dielectric(cosine, eta_);
+    return rough_ && smooth > 0.f ? tabulated(cosine) / smooth : 1.f;
 }
 
 float ObjectBoundary::tabulated(float cosine) const {

@@ -28,13 +28,12 @@ class ObjectBoundary {
     float transmittance(float cosine) const {
         return table_ ? tabulated(cosine) : 1.f - fresnel_dielectric(cosine, eta_);
     }
+    /// The same over that of a smooth boundary: 1 if it is one, and where that lets nothing pass.
+    float over_smooth(float cosine) const;
     /// Shares of even light from outside that pass and that are sent back. With a rough boundary
     /// they leave out what goes from facet to facet.
     double mean_transmittance() const { return mean_transmittance_; }
     double mean_reflectance() const { return mean_reflectance_; }
-    /// Share of diffuse light inside a white object that leaves it in the end: 1 for smooth
-    /// boundaries, less where facets lose light at each reflection.
-    double white_return() const { return white_return_; }
 
   private:
     float tabulated(float cosine) const;
@@ -42,7 +41,7 @@ class ObjectBoundary {
     float eta_;
     const Material* rough_ = nullptr;
     std::shared_ptr<const std::vector<float>> table_;  // at equally spaced cosines
-    double mean_transmittance_ = 1., mean_reflectance_ = 0., white_return_ = 1.;
+    double mean_transmittance_ = 1., mean_reflectance_ = 0.;
 };
 
 }  // namespace nacre

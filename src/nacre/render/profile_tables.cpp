@@ -2,6 +2,31 @@
 
 namespace nacre {
 
+namespace {
+
+/// A profile times a number.
+class MultipliedProfile final : public RadialProfile {
+  public:
+    MultipliedProfile(std::unique_ptr<RadialProfile> profile, double factor)
+        : profile_(std::move(profile)), factor_(factor) {}
+
+    const ProfileDescription& description() const override { return profile_->description(); }
+    double eval(double r) const override { return factor_ * profile_->eval(r); }
+    double cumulative(double r) const override { return factor_ * profile_->cumulative(r); }
+    double total() const override { return factor_ * profile_->total(); }
+    bool includes_single_scattering() const override {
+        return profile_->includes_single_scattering();
+    }
+    double scale() const override { return profile_->scale(); }
+    double sigma_tr() const override { return profile_->sigma_tr(); }
+
+  private:
+    std::unique_ptr<RadialProfile> profile_;
+    double factor_;
+};
+
+}  // namespace
+
 std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, const Bands& bands) {
     std::vector<ProfileMedium> result;
     for (int g = 0; g < bands.groups(); ++g) {
@@ -16,7 +41,7 @@ std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, cons
 }
 
 ProfileTables::ProfileTables(const Medium& medium, float eta, std::string_view profile,
-                             const Bands& bands, const Work& work)
+                             const Bands& bands, std::span<const double> factors, const Work& work)
     : bands_(bands) {
     const std::vector<ProfileMedium> media = medium_in_bands(medium, eta, bands);
     WorkPhase phase(work, "tables of the profile", media.size());
@@ -25,6 +50,9 @@ ProfileTables::ProfileTables(const Medium& medium, float eta, std::string_view p
         std::vector<const RadialProfile*> pointers;
         for (std::size_t i = first; i < std::min(first + 4, media.size()); ++i) {
             profiles.push_back(make_profile(profile, media[i]));
+            if (!factors.empty())
+                profiles.back() =
+                    std::make_unique<MultipliedProfile>(std::move(profiles.back()), factors[i]);
             pointers.push_back(profiles.back().get());
             totals_.push_back(float(profiles.back()->total()));
             includes_single_scattering_ = profiles.back()->includes_single_scattering();

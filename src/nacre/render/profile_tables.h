@@ -13,9 +13,10 @@ std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, cons
 /// R(r) of the medium in every band. Lengths are scene units.
 class ProfileTables {
   public:
-    /// Throws InputError as make_profile, Stopped if `work` says so.
+    /// `factors` multiply the profile of each band; empty: 1. Throws InputError as make_profile,
+    /// Stopped if `work` says so.
     ProfileTables(const Medium& medium, float eta, std::string_view profile, const Bands& bands,
-                  const Work& work = {});
+                  std::span<const double> factors = {}, const Work& work = {});
 
     /// R at squared distance r2 in the lanes of a path.
     Spectral eval(float r2, const Wavelengths& w) const;

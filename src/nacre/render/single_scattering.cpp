@@ -8,11 +8,13 @@
 
 namespace nacre {
 
-SingleScatteringTerm::SingleScatteringTerm(const Scene& scene, std::uint32_t shape, float eta)
+SingleScatteringTerm::SingleScatteringTerm(const Scene& scene, std::uint32_t shape,
+                                           const ObjectBoundary& boundary)
     : scene_(scene),
       medium_(*scene.shapes[shape].interior),
       shape_(shape),
-      eta_(eta),
+      boundary_(boundary),
+      eta_(boundary.eta()),
       lights_(scene.lights, scene.rays.bounds()),
       has_null_(std::ranges::any_of(
           scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {}
@@ -58,7 +60,7 @@ Spectral SingleScatteringTerm::radiance(const SurfacePoint& exit, const Vec3f& w
     const Vec3f to_light =
         (light.wi - entry.shading.n * cos_i) * (1.f / eta_) + entry.shading.n * mu_i;
     const float phase = medium_.phase.eval(dot(to_light, inwards));
-    const float through = (1.f - fresnel_dielectric(cos_i, eta_)) / (eta_ * eta_) * cos_i / mu_i;
+    const float through = boundary_.transmittance(cos_i) / (eta_ * eta_) * cos_i / mu_i;
     return lanes.sigma_t * lanes.albedo * transmittance * lanes.transmittance(s_i) * kept *
            light.radiance * Spectral(phase * through / (density * light.pdf * choice.probability));
 }

@@ -28,11 +28,16 @@ LocalScatteringLobe::LocalScatteringLobe(const Medium& medium,
                                          const ObjectBoundary& boundary, float scale, Orders orders)
     : medium_(medium),
       profile_(std::move(profile)),
+      boundary_(boundary),
       entry_(boundary),
       eta_(boundary.eta()),
       scale_(scale),
       share_(float(single_scattering_share(medium.phase.mean_cosine(), boundary.eta()))),
-      orders_(orders) {}
+      orders_(orders) {
+    // Of what was scattered once, the facets let out less.
+    if (boundary.rough())
+        share_ *= float(boundary.mean_transmittance() / (1. - diffuse_reflectance_external(eta_)));
+}
 
 LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) const {
     const MediumCoefficients c = medium_.coefficients({}, w);
@@ -57,7 +62,9 @@ LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) cons
 Spectral LocalScatteringLobe::eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
                                    const Wavelengths& w) const {
     if (!EntryLobe::is_outside(at, wi)) return Spectral(0.f);
-    const Terms t = terms(w);
+    Terms t = terms(w);
+    // The first order lets light in and out as a smooth boundary does.
+    if (boundary_.rough()) t.once.albedo *= Spectral(boundary_.over_smooth(wi.z));
     Spectral f = t.rest * entry_.eval(at, wo, wi, w);
     const float leaves = 1.f - t.once.specular(wo.z);
     if (leaves > 0.f) f += t.once.eval(wi, wo) * Spectral(wi.z / leaves);
@@ -85,8 +92,8 @@ std::optional<MaterialSample> LocalScatteringLobe::sample(const SurfacePoint& at
 
 TranslucencyPtr make_hanrahan_krueger(const TechniqueInput& in) {
     const Medium& medium = *in.scene.shapes[in.shape].interior;
-    auto profile = std::make_shared<const ProfileTables>(medium, in.eta, in.settings.profile,
-                                                         Bands(in.scene.mode));
+    auto profile = std::make_shared<const ProfileTables>(
+        medium, in.eta, in.settings.profile, Bands(in.scene.mode), in.rough_return, in.work);
     const std::string& choice = in.settings.single_scattering;
     const LocalScatteringLobe::Orders orders{
         .single = choice != "off",

@@ -12,7 +12,8 @@
 // they came from: Lambert's law, rho the share of the light that entered which they return. rho is
 // the total of a diffusion profile; where the profile includes light scattered once, W rho_1 is
 // taken off, so that in even light an object returns the profile's total as without the first term.
-// X is the exit's scale (bssrdf/exit_fresnel.h).
+// X is the exit's scale (bssrdf/exit_fresnel.h). Behind a rough boundary T is the share that facets
+// let pass; the directions of the first term are those behind a smooth one.
 #include "nacre/layers/hanrahan_krueger.h"
 #include "nacre/optics/phase.h"
 #include "nacre/render/profile_tables.h"
@@ -55,6 +56,7 @@ class LocalScatteringLobe final : public Material {
 
     const Medium& medium_;
     std::shared_ptr<const ProfileTables> profile_;
+    ObjectBoundary boundary_;
     EntryLobe entry_;
     float eta_, scale_, share_;
     Orders orders_;

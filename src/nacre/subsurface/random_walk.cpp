@@ -24,7 +24,7 @@ constexpr int most_strangers = 64;
 
 }  // namespace
 
-double half_space_albedo(const ProfileMedium& m) {
+double half_space_albedo(const ProfileMedium& m, int nodes) {
     const LayerStack half_space{{{.sigma_s = m.sigma_s,
                                   .sigma_a = m.sigma_a,
                                   .g = m.g,
@@ -33,7 +33,7 @@ double half_space_albedo(const ProfileMedium& m) {
                                 1.,
                                 m.eta};
     const double cosine[] = {1.};
-    const LayerTotals t = adding_doubling(half_space, cosine).diffuse;
+    const LayerTotals t = adding_doubling(half_space, cosine, {}, {.nodes = nodes}).diffuse;
     return std::clamp((t.reflectance - t.specular) / (1. - t.specular), 0., 1.);
 }
 
@@ -83,12 +83,13 @@ struct RandomWalk::Surroundings {
 
 RandomWalk::RandomWalk(const Scene& scene, std::uint32_t shape, const ObjectBoundary& boundary,
                        const Bands& bands, std::span<const RandomWalkMedium<double>> media,
-                       float exit_scale)
+                       float exit_scale, std::span<const double> factors)
     : Translucency(boundary),
       scene_(scene),
       shape_(shape),
       bands_(bands),
       exit_scale_(exit_scale),
+      factors_(factors.begin(), factors.end()),
       bounds_(scene.rays.bounds(shape)) {
     for (const RandomWalkMedium<double>& m : media) {
         sigma_t_.push_back(float(m.sigma_t));
@@ -137,7 +138,9 @@ Translucency::Emergence RandomWalk::emerge(const SurfacePoint& exit, const Vec3f
     if (end != WalkEnd::surface) return {};
     const SurfacePoint entry = scene_.rays.surface_point(surroundings.ray, *surroundings.hit);
     if (!(dot(walker.d, entry.ng) > 0.f)) return {};  // came back through a hole
-    return {Spectral(0.f), entry, weight * Spectral(exit_scale_)};
+    weight *= Spectral(exit_scale_);
+    if (!factors_.empty()) weight *= bands_.at(factors_.data(), w);
+    return {Spectral(0.f), entry, weight};
 }
 
 TranslucencyPtr make_random_walk(const TechniqueInput& in) {
@@ -154,7 +157,7 @@ TranslucencyPtr make_random_walk(const TechniqueInput& in) {
         phase.advance();
     });
     return std::make_shared<RandomWalk>(in.scene, in.shape, in.boundary, bands, walks,
-                                        in.exit_scale);
+                                        in.exit_scale, in.rough_return);
 }
 
 }  // namespace nacre

@@ -34,9 +34,10 @@
 
 namespace nacre {
 
-/// A, within [0, 1]: what a half space returns of the even light that entered it, to about 1e-4.
-/// Henyey and Greenstein's phase function.
-double half_space_albedo(const ProfileMedium& medium);
+/// A, within [0, 1]: what a half space returns of the even light that entered it, to about 1e-4
+/// unless `nodes` says how many the quadrature has (AddingDoublingOptions). Henyey and Greenstein's
+/// phase function.
+double half_space_albedo(const ProfileMedium& medium, int nodes = 0);
 
 /// Coefficients of the walk in a medium (sigma_t' > 0), in its unit.
 RandomWalkMedium<double> random_walk_medium(const ProfileMedium& medium, FreePath keep);
@@ -44,10 +45,10 @@ RandomWalkMedium<double> random_walk_medium(const ProfileMedium& medium, FreePat
 class RandomWalk final : public Translucency {
   public:
     /// `media`: the walk's coefficients in each band, per scene unit. `exit_scale` multiplies what
-    /// leaves.
+    /// leaves, and so does `factors` in each band unless it is empty.
     RandomWalk(const Scene& scene, std::uint32_t shape, const ObjectBoundary& boundary,
                const Bands& bands, std::span<const RandomWalkMedium<double>> media,
-               float exit_scale);
+               float exit_scale, std::span<const double> factors = {});
 
     /// No entry if the walk is absorbed or gets lost through a hole. Other shapes inside are
     /// ignored.
@@ -63,6 +64,7 @@ class RandomWalk final : public Translucency {
     Bands bands_;
     std::vector<float> sigma_t_, sigma_s_;  // by band
     float exit_scale_;
+    std::vector<float> factors_;  // by band, or empty
     Box3f bounds_;
 };
 

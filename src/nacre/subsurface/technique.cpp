@@ -10,6 +10,7 @@
 #include "nacre/render/surface_sampling.h"
 #include "nacre/render/volume_path_tracer.h"
 #include "nacre/scene/split_words.h"
+#include "nacre/subsurface/rough_half_space.h"
 
 namespace nacre {
 namespace {
@@ -113,7 +114,8 @@ auto at_place(const SubsurfaceSettings& settings, F&& f) {
 
 std::shared_ptr<const ProfileTables> tables_of(const TechniqueInput& in) {
     return std::make_shared<ProfileTables>(*in.scene.shapes[in.shape].interior, in.eta,
-                                           in.settings.profile, Bands(in.scene.mode), in.work);
+                                           in.settings.profile, Bands(in.scene.mode),
+                                           in.rough_return, in.work);
 }
 
 /// What a translucent shape is to light on its way to another place: a Lambert surface that returns
@@ -135,7 +137,9 @@ class StandIn final : public Translucency {
 };
 
 TranslucencyPtr make_stand_in(const TechniqueInput& in) {
-    const float mirror = float(in.boundary.mean_reflectance()), enters = 1.f - mirror;
+    const float mirror = float(in.boundary.mean_reflectance());
+    const float enters =
+        in.boundary.rough() ? float(in.boundary.mean_transmittance()) : 1.f - mirror;
     return std::make_shared<StandIn>(tables_of(in), mirror, enters * enters * in.exit_scale);
 }
 
@@ -164,6 +168,8 @@ bool wants_simulation(const ShapeBinding& shape) {
 class TechniqueIntegrator final : public Integrator {
   public:
     TechniqueIntegrator(const Scene& scene, const Work& work) {
+        for (const ShapeBinding& shape : scene.shapes)
+            surfaces_.push_back(surface_of(scene, shape, work));
         Translucencies local(scene.shapes.size());
         for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
             if (scene.shapes[i].subsurface) local[i] = make(scene, i, make_stand_in, nullptr, work);
@@ -196,15 +202,33 @@ class TechniqueIntegrator final : public Integrator {
                          const Work& work) {
         const SubsurfaceSettings& settings = *scene.shapes[shape].subsurface;
         refuse_flat(scene, shape);
-        const ObjectBoundary boundary = ObjectBoundary::of(scene.shapes[shape]);
-        const float scale = float(boundary.white_return() /
-                                  (settings.exit == "paper" ? 1. : boundary.mean_transmittance()));
+        const Surface& surface = surfaces_[shape];
+        const ObjectBoundary& boundary = surface.boundary;
+        const float scale =
+            float(1. / (settings.exit == "paper" ? 1. : boundary.mean_transmittance()));
         return at_place(settings, [&] {
-            return maker({scene, shape, settings, boundary.eta(), scale, boundary, light,
-                          statistics_, work});
+            return maker({scene, shape, settings, boundary.eta(), scale, boundary,
+                          surface.rough_return, light, statistics_, work});
         });
     }
 
+    /// What is between a translucent shape's matter and the rest.
+    struct Surface {
+        ObjectBoundary boundary{1.f};
+        std::vector<double> rough_return{};
+    };
+    static Surface surface_of(const Scene& scene, const ShapeBinding& shape, const Work& work) {
+        if (!shape.subsurface) return {};
+        return at_place(*shape.subsurface, [&] {
+            Surface s{ObjectBoundary::of(shape)};
+            s.rough_return = rough_return(
+                s.boundary, medium_in_bands(*shape.interior, s.boundary.eta(), Bands(scene.mode)),
+                work);
+            return s;
+        });
+    }
+
+    std::vector<Surface> surfaces_;  // of each shape; while the techniques are made
     std::unique_ptr<PathTracer> tracer_;
     Statistics statistics_;
 };
@@ -288,7 +312,7 @@ std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const Technique
                                                                  bool profile_includes_it) {
     const std::string& choice = in.settings.single_scattering;
     if (choice == "off" || (choice == "auto" && profile_includes_it)) return nullptr;
-    return std::make_shared<SingleScatteringTerm>(in.scene, in.shape, in.eta);
+    return std::make_shared<SingleScatteringTerm>(in.scene, in.shape, in.boundary);
 }
 
 TranslucencyPtr make_local_reflection(const TechniqueInput& in) {

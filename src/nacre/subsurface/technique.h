@@ -20,9 +20,11 @@ struct TechniqueInput {
     std::uint32_t shape;
     const SubsurfaceSettings& settings;
     float eta;         ///< index of the medium over that outside
-    float exit_scale;  ///< 1, or 1 over the boundary's mean transmittance (settings.exit); times
-                       ///< the share of white light that a rough boundary does not lose
+    float exit_scale;  ///< 1, or 1 over the boundary's mean transmittance (settings.exit)
     const ObjectBoundary& boundary;
+    /// In each band, the factor of what returns behind a rough boundary (rough_half_space.h); empty
+    /// if it is smooth.
+    std::span<const double> rough_return;
     /// Traces paths among surfaces, translucent shapes as local reflectors: for light that falls on
     /// the shape. Null while those are being made.
     const PathTracer* light;

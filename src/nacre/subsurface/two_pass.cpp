@@ -68,6 +68,13 @@ double advised(double x) {
     return std::ceil(x * (1. + 1e-9) / digit) * digit;
 }
 
+void multiply(DipoleKernel& kernel, double factor) {
+    for (DipoleKernel::Source* s : {&kernel.real, &kernel.image}) {
+        s->p *= float(factor);
+        s->q *= float(factor);
+    }
+}
+
 ShapePoints spread_points(const TechniqueInput& in, double free_path) {
     const RayScene& rays = in.scene.rays;
     const Mesh* mesh = rays.mesh(in.shape);
@@ -201,7 +208,8 @@ TranslucencyPtr make_two_pass(const TechniqueInput& in) {
     double densest = 0.;
     for (const ProfileMedium& m : medium_in_bands(medium, in.eta, bands)) {
         check(m);
-        kernels.push_back(make_kernel(in.settings.profile, m));
+        DipoleKernel& kernel = kernels.emplace_back(make_kernel(in.settings.profile, m));
+        if (!in.rough_return.empty()) multiply(kernel, in.rough_return[kernels.size() - 1]);
         densest = std::max(densest, m.sigma_t_prime());
     }
     const auto profile = make_profile(in.settings.profile, {});
