@@ -29,6 +29,7 @@ constexpr Case cases[] = {
      "kd=0 ks=1 distribution=beckmann terms=2 w1=0.4 m=0.2 w2=0.6 m2=0.4 n=0.2 k=3"},
     {"ggx", "ks=0.9 alpha_u=0.25 alpha_v=0.5 fresnel=schlick f0=0.9,0.6,0.3"},
     {"ggx", "ks=1 alpha=0.5 compensation=kulla_conty fresnel=schlick f0=0.9,0.6,0.3"},
+    {"metallic_roughness", "base_color=0.8,0.5,0.3 metallic=0.4 roughness=0.4 coupling=shirley"},
     {"ward", "variant=gmd kd=0.3,0.2,0.1 ks=0.6 alpha_u=0.2 alpha_v=0.4"},
     {"ward", "variant=duer kd=0.3,0.2,0.1 ks=0.4 alpha=0.25"},
     {"schlick", ""},

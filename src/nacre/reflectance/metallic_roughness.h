@@ -41,7 +41,7 @@ inline const ModelDescription& metallic_roughness_description() {
                        {.name = "base_color",
                         .meaning = "albedo of the matt base, and normal reflectance of the metal",
                         .kind = ParameterKind::spectrum,
-                        .otherwise = 1.,
+                        .otherwise = 0.8,
                         .aliases = {"baseColor"}},
                        {.name = "metallic", .meaning = "share of the metal", .otherwise = 0.},
                        {.name = "roughness",
@@ -97,6 +97,7 @@ inline const ModelDescription& metallic_roughness_description() {
                        "P. Shirley et al. 1997, A Practitioners' Assessment of Light Reflection "
                        "Models, Pacific Graphics",
                        "C. Schlick 1994, CGF 13(3)", "B. Walter et al. 2007, EGSR, 195-206"},
+        .groups = {{.name = "metallic_roughness"}},
     };
     return description;
 }
