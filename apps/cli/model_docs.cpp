@@ -163,9 +163,16 @@ Table lobe_table(const AnyModel& model) {
         const double a = degrees * std::numbers::pi / 180.;
         return Vec3d{std::sin(a), 0., std::cos(a)};
     };
-    Table t{
-        std::string(model.description().name), {"theta_o_deg"}, {}, PlotKind::polar, "f / sr^-1"};
-    for (double a : incidences) t.columns.push_back(fmt::format("theta_i={:g}", a));
+    Table t{fmt::format("{}: default parameters", model.description().name),
+            {"theta_o_deg"},
+            {},
+            PlotKind::polar,
+            "BRDF / sr⁻¹, as distance from the origin; light from the left"};
+    t.names = {""};
+    for (double a : incidences) {
+        t.columns.push_back(fmt::format("theta_i={:g}", a));
+        t.names.push_back(fmt::format("incidence {:g}°", a));
+    }
     // A step of two degrees follows these lobes, meets their mirror directions, and keeps the
     // picture small.
     for (int out = -88; out <= 88; out += 2) {

@@ -149,6 +149,13 @@ Canvas canvas_of(const Table& t) {
                       : Canvas{std::max(0.6, 0.86 / slope + 0.14), 1.12};
 }
 
+/// 1, 2 or 5 times a power of ten, five to twelve of which are `length`.
+double step_of(double length) {
+    const double power = std::pow(10., std::floor(std::log10(length / 5.)));
+    const double rest = length / 5. / power;
+    return (rest >= 5. ? 5. : rest >= 2. ? 2. : 1.) * power;
+}
+
 /// Colours of the report's diagrams (page/report.css), which differ in lightness too.
 std::string style() {
     constexpr const char* colours[] = {"#0b64a8", "#cc5200", "#007d5c", "#b0478c",
@@ -195,6 +202,9 @@ std::string gnuplot_script(const Table& t, const fs::path& output, const std::st
             break;
         case PlotKind::polar: {
             const Extent e = lobes_extent(t);
+            // The same steps along both axes: a flat plot would crowd steps of its own.
+            s += fmt::format("set tics {:.6g}\n",
+                             step_of(std::max(e.right - e.left, e.top - e.bottom)));
             s += fmt::format(
                 "set size ratio -1\nset zeroaxis lt 1 lc rgb '#5c6065'\n"
                 "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
