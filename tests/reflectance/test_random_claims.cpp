@@ -65,8 +65,6 @@ TEST(Overclaims, AreFoundByRandomParameters) {
          without_conditions, "albedo"},
         {"cook_torrance", "convention=normalized, for masking smith or smith_correlated or sancer",
          conserving, "albedo 1."},
-        {"ggx", "compensation=kulla_conty masking=smith_correlated, for alpha_v = alpha_u",
-         without_conditions, "albedo 1.0"},
         {"schlick_ct", "convention=normalized, for kd = 0", without_conditions, "albedo 1."},
         {"lafortune", "norm=normal, for kd + ks + ks2 + ks3 up to 1 and |M w| up to |w|",
          without_conditions, "albedo"},

@@ -97,14 +97,14 @@ std::optional<std::string> wrong_values(const AnyModel& model, bool reciprocal, 
     return std::nullopt;
 }
 
-/// Whole albedo by quadrature, refined where its error decides whether it is above `most`, which is
-/// not known to more than 1e-6.
+/// Whole albedo by quadrature. A coarse one may acquit, but its estimate of its own error can be
+/// too small at the rim: what is said to exceed `most`, known to 1e-6 at best, is so by the finest.
 Albedo settled_albedo(const AnyModel& model, const Vec3d& wi, double most) {
     Albedo a;
     for (double tolerance : {1e-3, 5e-7}) {
         a = directional_albedo(model, wi, 550., tolerance);
         a.value += model.mirror(wi);
-        if (std::abs(a.value - most) > a.error) break;
+        if (a.value + a.error <= most) break;
     }
     return a;
 }
@@ -152,7 +152,8 @@ CheckOutcome check_random_parameters(const Evaluator& evaluator, const Behaviour
             }
             const Albedo a = settled_albedo(model, l.wi, most);
             note(l, a.value);
-            if (!(a.value - a.error <= most))
+            // Where the cells ran out the error is an estimate: the excess must be well above it.
+            if (!(a.value - 4. * a.error <= most))
                 return failed(fmt::format("albedo {:.6f} {}", a.value, where));
         }
         const Looked& l = brightest_angle;
