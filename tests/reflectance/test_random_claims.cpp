@@ -66,8 +66,6 @@ TEST(Overclaims, AreFoundByRandomParameters) {
         {"cook_torrance", "convention=normalized, for masking smith or smith_correlated or sancer",
          conserving, "albedo 1."},
         {"schlick_ct", "convention=normalized, for kd = 0", without_conditions, "albedo 1."},
-        {"lafortune", "norm=normal, for kd + ks + ks2 + ks3 up to 1 and |M w| up to |w|",
-         without_conditions, "albedo"},
     };
     for (const Overclaim& c : cases) {
         const Evaluator& evaluator = find_evaluator(c.model);
