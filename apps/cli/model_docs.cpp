@@ -89,11 +89,18 @@ std::string parameters_text(const ModelDescription& m) {
     return text;
 }
 
+/// Options and conditions of a claim.
+std::string with_text(const Behaviour& b) {
+    const std::string condition = condition_text(b);
+    std::string text = b.options.empty() ? "" : code(b.options);
+    if (!condition.empty()) text += (text.empty() ? "for " : ", for ") + plain(condition);
+    return text;
+}
+
 std::string behaviour_text(const ModelDescription& m) {
     std::string text = "| with | reciprocal | conserves energy | |\n|---|---|---|---|\n";
     for (const Behaviour& b : m.behaviours)
-        text += fmt::format("| {} | {} | {} | {} |\n", b.options.empty() ? "" : code(b.options),
-                            b.reciprocal ? "yes" : "no",
+        text += fmt::format("| {} | {} | {} | {} |\n", with_text(b), b.reciprocal ? "yes" : "no",
                             b.energy == Energy::conserves ? "yes" : "no", plain(b.energy_note));
     text += fmt::format("\n- Isotropy: {}\n- Sampling: {}\n", plain(m.isotropy), plain(m.sampling));
     if (!m.albedo.empty()) text += fmt::format("- Albedo: {}\n", plain(m.albedo));

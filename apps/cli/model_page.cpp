@@ -14,7 +14,12 @@ std::string behaviour_text(const Behaviour& b) {
         "{}, {}", b.reciprocal ? "reciprocal" : "not reciprocal",
         b.energy == Energy::conserves ? "conserves energy" : "does not conserve energy");
     if (!b.energy_note.empty()) text += fmt::format(" ({})", b.energy_note);
-    return wrapped(b.options.empty() ? "      " : fmt::format("      {}: ", b.options), text);
+    const std::string claim = claim_text(b);
+    if (claim.empty()) return wrapped("      ", text);
+    // What is long goes on a line of its own.
+    if (claim.size() > width / 2)
+        return wrapped("      ", claim + ":") + wrapped("          ", text);
+    return wrapped(fmt::format("      {}: ", claim), text);
 }
 
 }  // namespace
@@ -132,6 +137,7 @@ ordered_json model_json(const ModelDescription& m) {
     ordered_json behaviours = ordered_json::array();
     for (const Behaviour& b : m.behaviours)
         behaviours.push_back({{"options", b.options},
+                              {"condition", condition_text(b)},
                               {"reciprocal", b.reciprocal},
                               {"conserves_energy", b.energy == Energy::conserves},
                               {"note", b.energy_note}});

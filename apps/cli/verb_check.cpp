@@ -4,6 +4,7 @@
 #include <set>
 
 #include "apps/cli/number_option.h"
+#include "apps/cli/progress_bar.h"
 #include "apps/cli/vector_file.h"
 #include "apps/cli/vector_functions.h"
 #include "apps/cli/vector_scattering.h"
@@ -25,7 +26,7 @@ constexpr double tolerance = 1e-6;
 struct Options {
     std::string model, vectors;
     std::uint64_t seed = 1;
-    int samples = 40000, random_sets = 0;
+    int samples = 40000, random_sets = CheckOptions().random_sets;
 };
 
 struct GroupResult {
@@ -133,6 +134,21 @@ int check_vectors(const std::string& path) {
     return good ? success : failure;
 }
 
+/// Tells of a model that takes long.
+std::vector<CheckOutcome> check_model_aloud(const Evaluator& evaluator,
+                                            const CheckOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const StatusLine line(
+        false,
+        [&](bool) {
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+            return fmt::format("checking {}, {}", evaluator.description().name,
+                               format_seconds(passed.count()));
+        },
+        3.);
+    return check_model(evaluator, options);
+}
+
 int check_models(const Options& o) {
     std::vector<const ModelDescription*> chosen;
     if (o.model == "all")
@@ -158,7 +174,7 @@ int check_models(const Options& o) {
         options.seed = o.seed;
         options.samples = o.samples;
         options.random_sets = o.random_sets;
-        for (const CheckOutcome& c : check_model(evaluator, options))
+        for (const CheckOutcome& c : check_model_aloud(evaluator, options))
             report(c.passed, c.name, c.detail);
     }
     return good ? success : failure;
@@ -182,7 +198,9 @@ Action set_up_check(CLI::App& app, const Invocation&) {
     add_seed(app, o->seed, "of the samplers' random numbers (1)");
     add_whole(app, "--samples", o->samples, 1000, 100'000'000, "per chi-square test (40000)");
     add_whole(app, "--random", o->random_sets, 0, 100000,
-              "also tries so many sets of random parameters, near grazing too, for each claim (0)");
+              fmt::format("tries so many sets of random parameters, near grazing too, for each "
+                          "claim; 0: none ({})",
+                          CheckOptions().random_sets));
     return [o] { return run(*o); };
 }
 

@@ -14,6 +14,9 @@ namespace nacre {
 
 enum class BlinnDistribution { phong, torrance_sparrow, trowbridge_reitz };
 
+/// Lowers ks until kd + 4 ks/D_n is at most 1.
+void bring_below_mirror(NamedNumbers& numbers);
+
 inline const ModelDescription& blinn_torrance_sparrow_description() {
     static const ModelDescription description = [] {
         ModelDescription d{
@@ -49,20 +52,20 @@ inline const ModelDescription& blinn_torrance_sparrow_description() {
                             .otherwise = 15.,
                             .aliases = {"beta_deg"}}},
             .behaviours =
-                {{.options = "ks=0.5",
-                  .energy_note =
-                      "for ks <= D_n/4, where D_n, the peak of the normalised density, is "
-                      "(Ns+2)/(2 pi) or 1/(pi C2^2)",
-                  .conditions = {{.parameter = "beta", .high = 15.},
-                                 {.parameter = "kd", .high = 0.5}},
-                  .examples = {"kd=0 distribution=phong beta=20 fresnel=one",
-                               "kd=0 distribution=torrance_sparrow beta=10 n=1.8",
-                               "kd=0.3 distribution=trowbridge_reitz beta=15"}},
-                 {.options = "ks=4 kd=0 fresnel=one",
-                  .energy = Energy::exceeds,
-                  .energy_note = "for larger ks: D is not normalised",
-                  .witness = "distribution=phong beta=20",
-                  .examples = {"distribution=phong beta=20"}}},
+                // The highlight is 4 ks/D_n times that of facets with a normalised density in
+                // V-shaped grooves, which reflect at most what they get.
+            {{.energy_note =
+                  "D_n, the peak of the normalised density, is (Ns+2)/(2 pi), 1/(pi C2^2) or, "
+                  "of the Gaussian, torrance_sparrow's C of m = beta/sqrt(2 ln 2)",
+              .joint = {.text = "kd + 4 ks/D_n up to 1", .bring_within = bring_below_mirror},
+              .examples = {"kd=0 ks=0.5 distribution=phong beta=20 fresnel=one",
+                           "kd=0 ks=0.5 distribution=torrance_sparrow beta=10 n=1.8",
+                           "kd=0.3 ks=0.4 distribution=trowbridge_reitz beta=15"}},
+             {.options = "ks=4 kd=0 fresnel=one",
+              .energy = Energy::exceeds,
+              .energy_note = "for larger ks: D is not normalised",
+              .witness = "distribution=phong beta=20",
+              .examples = {"distribution=phong beta=20"}}},
             .sampling = "one-sample mixture of the cosine and mirrored normals of density D h.z",
             .errata =
                 {"Secondary literature prints the Trowbridge-Reitz form without its outer square, "
@@ -77,6 +80,12 @@ inline const ModelDescription& blinn_torrance_sparrow_description() {
         return d;
     }();
     return description;
+}
+
+inline FacetDistribution facets_of(BlinnDistribution form) {
+    return form == BlinnDistribution::phong              ? FacetDistribution::phong
+           : form == BlinnDistribution::torrance_sparrow ? FacetDistribution::gauss
+                                                         : FacetDistribution::trowbridge_reitz;
 }
 
 template <class D, class P = D, class S = D>
@@ -96,10 +105,7 @@ struct BlinnTorranceSparrow : FacetReflection<D, P, S> {
         m.fresnel.parameters(m.fresnel, f);
     }
     void prepare() {
-        this->distribution = form == BlinnDistribution::phong ? FacetDistribution::phong
-                             : form == BlinnDistribution::torrance_sparrow
-                                 ? FacetDistribution::gauss
-                                 : FacetDistribution::trowbridge_reitz;
+        this->distribution = facets_of(form);
         this->m[0] = width_of_half_height(this->distribution, beta * S(std::numbers::pi / 180));
         Facets::prepare();
         // The common form divides by 4 and has a normalised D.

@@ -1,5 +1,7 @@
 #include "nacre/reflectance/check.h"
 
+#include <tbb/parallel_for.h>
+
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
 #include "nacre/reflectance/albedo.h"
@@ -231,38 +233,46 @@ std::optional<Verdict> check_albedo(const std::vector<Case>& cases) {
     return verdict;
 }
 
+/// All checks of one behaviour; `tests` is how many chi-square tests the model faces.
+std::vector<CheckOutcome> check_behaviour(const Evaluator& evaluator, const Behaviour& b,
+                                          const CheckOptions& options, int tests,
+                                          std::uint64_t stream) {
+    std::vector<Case> cases;
+    for (std::string_view example : b.examples) {
+        const std::string text =
+            b.options.empty() ? std::string(example) : fmt::format("{} {}", b.options, example);
+        cases.push_back({AnyModel(evaluator, parse_settings(text)), std::string(example)});
+    }
+    const std::string claim = claim_text(b), model(evaluator.description().name);
+    const std::string name = claim.empty() ? model : fmt::format("{} {}", model, claim);
+    std::vector<CheckOutcome> outcomes;
+    const auto add = [&](const char* what, const Verdict& v) {
+        outcomes.push_back({fmt::format("{}: {}", name, what), v.passed, v.detail});
+    };
+    add("sampling", check_sampling(cases, options, tests, stream));
+    add("furnace", check_furnace(cases, b, evaluator));
+    add("reciprocity", check_reciprocity(cases, b.reciprocal));
+    add("horizon", check_horizon(cases));
+    if (const auto v = check_albedo(cases)) add("albedo", *v);
+    if (options.random_sets <= 0) return outcomes;
+    CheckOutcome tried = check_random_parameters(evaluator, b, options);
+    tried.name = fmt::format("{}: random parameters", name);
+    outcomes.push_back(std::move(tried));
+    return outcomes;
+}
+
 }  // namespace
 
 std::vector<CheckOutcome> check_model(const Evaluator& evaluator, const CheckOptions& options) {
-    const ModelDescription& model = evaluator.description();
+    const std::vector<Behaviour>& behaviours = evaluator.description().behaviours;
     int tests = 0;
-    for (const Behaviour& b : model.behaviours)
-        tests += int(b.examples.size() * std::size(incidences));
+    for (const Behaviour& b : behaviours) tests += int(b.examples.size() * std::size(incidences));
+    std::vector<std::vector<CheckOutcome>> of(behaviours.size());
+    tbb::parallel_for(std::size_t(0), of.size(), [&](std::size_t i) {
+        of[i] = check_behaviour(evaluator, behaviours[i], options, tests, 1000 * i);
+    });
     std::vector<CheckOutcome> outcomes;
-    std::uint64_t stream = 0;
-    for (const Behaviour& b : model.behaviours) {
-        std::vector<Case> cases;
-        for (std::string_view example : b.examples) {
-            const std::string text =
-                b.options.empty() ? std::string(example) : fmt::format("{} {}", b.options, example);
-            cases.push_back({AnyModel(evaluator, parse_settings(text)), std::string(example)});
-        }
-        const std::string name = b.options.empty() ? std::string(model.name)
-                                                   : fmt::format("{} {}", model.name, b.options);
-        const auto add = [&](const char* what, const Verdict& v) {
-            outcomes.push_back({fmt::format("{}: {}", name, what), v.passed, v.detail});
-        };
-        add("sampling", check_sampling(cases, options, tests, stream));
-        stream += 1000;
-        add("furnace", check_furnace(cases, b, evaluator));
-        add("reciprocity", check_reciprocity(cases, b.reciprocal));
-        add("horizon", check_horizon(cases));
-        if (const auto v = check_albedo(cases)) add("albedo", *v);
-        if (options.random_sets <= 0) continue;
-        CheckOutcome tried = check_random_parameters(evaluator, b, options);
-        tried.name = fmt::format("{}: random parameters", name);
-        outcomes.push_back(std::move(tried));
-    }
+    for (auto& o : of) std::move(o.begin(), o.end(), std::back_inserter(outcomes));
     return outcomes;
 }
 

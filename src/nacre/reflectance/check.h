@@ -16,8 +16,8 @@ struct CheckOutcome {
 
 struct CheckOptions {
     std::uint64_t seed = 1;
-    int samples = 40000;  ///< a chi-square test
-    int random_sets = 0;  ///< sets of random parameters, a behaviour; 0: none
+    int samples = 40000;   ///< a chi-square test
+    int random_sets = 16;  ///< sets of random parameters, a behaviour; 0: none
     /// Probability that some sampling test of the model fails although its sampler is right.
     double significance = 0.001;
 };

@@ -109,32 +109,54 @@ inline const ModelDescription& cook_torrance_description() {
                   .aliases = {"ms_2"}}},
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
-                {{.options = "convention=normalized",
-                  .energy_note = "for kd + ks <= 1, with any masking but none",
-                  .conditions = {{.parameter = "masking", .high = 3.}},
-                  .examples =
-                      {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.2 ks=0.8 width=half_height beta=15",
-                       "kd=0.3 ks=0.7 distribution=gauss m=0.4 masking=smith n=1.8",
-                       "kd=0 ks=1 distribution=phong m=30 fresnel=conductor n=0.2 k=3.4",
-                       "kd=0 ks=1 distribution=trowbridge_reitz m=0.3 masking=smith_correlated "
-                       "fresnel=schlick f0=0.9",
-                       "kd=0 ks=1 terms=2 m=0.15 m2=0.5 w1=0.4 w2=0.6 masking=sancer fresnel=one"}},
-                 {.options = "convention=m2_over_pi",
-                  .energy = Energy::exceeds,
-                  .energy_note = "4 times too bright",
-                  .witness = "kd=0 ks=1 m=0.3 fresnel=one",
-                  .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}},
-                 {.options = "convention=four_m2",
-                  .energy = Energy::exceeds,
-                  .energy_note = "pi times too bright",
-                  .witness = "kd=0 ks=1 m=0.3 fresnel=one",
-                  .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}},
-                 {.options = "convention=normalized masking=none",
-                  .energy = Energy::exceeds,
-                  .energy_note = "facets that hide each other are counted twice",
-                  .witness = "kd=0 ks=1 m=0.3 fresnel=one",
-                  .witness_degrees = 80.,
-                  .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}}},
+                // Masking that belongs to the density shares out the projected area of the facets,
+                // so that no more is reflected than meets the surface.
+            {{.options = "convention=normalized masking=v_cavity",
+              .energy_note = "for kd + ks <= 1",
+              .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.2 ks=0.8 width=half_height beta=15",
+                           "kd=0 ks=1 distribution=phong m=30 fresnel=conductor n=0.2 k=3.4"}},
+             {.options = "convention=normalized",
+              .energy_note = "for kd + ks <= 1",
+              .conditions = {{.parameter = "masking", .choices = {"smith", "smith_correlated"}},
+                             {.parameter = "distribution",
+                              .choices = {"beckmann", "trowbridge_reitz"}}},
+              .examples = {"kd=0 ks=1 distribution=trowbridge_reitz m=0.3 "
+                           "masking=smith_correlated fresnel=schlick f0=0.9",
+                           "kd=0 ks=1 terms=2 m=0.15 m2=0.5 w1=0.4 w2=0.6 "
+                           "masking=smith_correlated fresnel=one"}},
+             // Towards grazing incidence 1/(1 + L) is as the mean slope of one side, which in
+             // units of Beckmann's of the same width is sqrt(pi) for Trowbridge-Reitz' and
+             // Phong's of exponent 0, and less for the others.
+             {.options = "convention=normalized",
+              .energy = Energy::exceeds,
+              .energy_note = "where Beckmann's Lambda serves another distribution: by a factor "
+                             "of sqrt(pi) = 1.77245 at most, which trowbridge_reitz with "
+                             "sancer approaches at grazing incidence",
+              .witness = "masking=sancer kd=0 ks=1 distribution=trowbridge_reitz m=0.33 "
+                         "fresnel=one",
+              .witness_degrees = 89.99,
+              .at_most = 1.772454,
+              .conditions = {{.parameter = "masking",
+                              .choices = {"smith", "smith_correlated", "sancer"}}},
+              .examples = {"kd=0.3 ks=0.7 distribution=gauss m=0.4 masking=smith n=1.8",
+                           "kd=0 ks=1 terms=2 m=0.15 m2=0.5 w1=0.4 w2=0.6 masking=sancer "
+                           "fresnel=one"}},
+             {.options = "convention=m2_over_pi",
+              .energy = Energy::exceeds,
+              .energy_note = "4 times too bright",
+              .witness = "kd=0 ks=1 m=0.3 fresnel=one",
+              .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}},
+             {.options = "convention=four_m2",
+              .energy = Energy::exceeds,
+              .energy_note = "pi times too bright",
+              .witness = "kd=0 ks=1 m=0.3 fresnel=one",
+              .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}},
+             {.options = "convention=normalized masking=none",
+              .energy = Energy::exceeds,
+              .energy_note = "facets that hide each other are counted twice",
+              .witness = "kd=0 ks=1 m=0.3 fresnel=one",
+              .witness_degrees = 80.,
+              .examples = {"kd=0 ks=1 m=0.3 fresnel=one"}}},
             .sampling =
                 "one-sample mixture of the cosine and mirrored normals of density D h.z "
                 "(gauss: the density of its angles); highlight by its Fresnel factor",

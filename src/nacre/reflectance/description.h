@@ -48,11 +48,21 @@ enum class Energy {
     exceeds,    ///< somewhere the albedo is above 1
 };
 
-/// Of what parameters a claim speaks, where not of all that are allowed.
+/// Of what values of a parameter a claim speaks, where not of all that are allowed.
 struct Condition {
     std::string_view parameter;
-    double low = 0., high = 1.;     ///< within these, ends included; of a choice, its position
-    std::string_view same_as = "";  ///< or as large as this other parameter
+    double low = 0., high = 1.;                  ///< within these, ends included
+    std::string_view same_as = "";               ///< or as large as this other parameter
+    std::vector<std::string_view> choices = {};  ///< of a choice: one of these
+};
+
+/// Numbers of a model's parameters by name, of a choice its position.
+using NamedNumbers = std::vector<std::pair<std::string_view, double>>;
+
+/// A condition that ties several parameters, in words and as what a check does to drawn ones.
+struct JointCondition {
+    std::string_view text = "";  ///< empty: none
+    void (*bring_within)(NamedNumbers& numbers) = nullptr;
 };
 
 /// How the model behaves with given options, as claims that the checks put to the test.
@@ -66,6 +76,7 @@ struct Behaviour {
     double witness_degrees = 0.;
     double at_most = 0.;                     ///< exceeds: no albedo is above this; 0: not said
     std::vector<Condition> conditions = {};  ///< of which parameters the claims speak; empty: all
+    JointCondition joint = {};
     /// Settings (beside the options) at which the checks look; at least one.
     std::vector<std::string_view> examples = {};
 };
@@ -102,6 +113,11 @@ struct ModelDescription {
     std::vector<std::string_view> references = {};
     std::vector<ReferenceGroup> groups = {};
 };
+
+/// The conditions of a claim in words, "sigma up to 0.3, alpha_v = alpha_u"; empty: none.
+std::string condition_text(const Behaviour& behaviour);
+/// Options and conditions, "variant=full, for sigma up to 0.3"; empty: always.
+std::string claim_text(const Behaviour& behaviour);
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 

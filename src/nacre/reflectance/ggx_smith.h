@@ -75,25 +75,35 @@ inline const ModelDescription& ggx_smith_description() {
                             .aliases = {"alpha", "alphaV", "m"}}},
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
-                {{.options = "compensation=none",
-                  .energy_note = "for kd + ks <= 1",
-                  .examples =
-                      {"fresnel=one alpha=0.2", "fresnel=one alpha=0.9 masking=smith",
-                       "kd=0.3 ks=0.6 alpha_u=0.1 alpha_v=0.5 fresnel=conductor n=0.2 k=3.4",
-                       "kd=0.5 ks=0.5 alpha=0.3 n=1.5"}},
-                 {.options = "compensation=kulla_conty masking=smith_correlated",
-                  .energy_note =
-                      "for kd + ks <= 1 and alpha_u = alpha_v; to 1e-6 all of it for fresnel=one. "
-                      "Anisotropic facets get what isotropic ones of alpha = sqrt(alpha_u alpha_v) "
-                      "lose: albedo 1.058 at 88 degrees for alpha_u=0.01 alpha_v=0.1 fresnel=one",
-                  .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
-                  .examples = {"fresnel=schlick f0=0.9 alpha=0.5", "fresnel=schlick f0=0.6 alpha=1",
-                               "kd=0.3 ks=0.6 alpha=0.3 fresnel=conductor n=0.2 k=3.4"}},
-                 {.options = "compensation=slides masking=smith_correlated",
-                  .energy_note = "for kd + ks <= 1 and alpha_u = alpha_v, as kulla_conty; "
-                                 "brighter than facets of that colour can be",
-                  .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
-                  .examples = {"fresnel=schlick f0=0.5 alpha=0.8"}}},
+                // Smith's masking shares out the projected area of the facets: E is at most 1, and
+                // E + (1 - E) F_ms with F_ms <= 1 too, if E is that of the facets: alpha_u =
+                // alpha_v.
+            {{.options = "compensation=none",
+              .energy_note = "for kd + ks <= 1",
+              .examples = {"fresnel=one alpha=0.2", "fresnel=one alpha=0.9 masking=smith",
+                           "kd=0.3 ks=0.6 alpha_u=0.1 alpha_v=0.5 fresnel=conductor n=0.2 k=3.4",
+                           "kd=0.5 ks=0.5 alpha=0.3 n=1.5"}},
+             {.options = "compensation=kulla_conty masking=smith_correlated",
+              .energy_note = "for kd + ks <= 1; to 1e-6 all of it for fresnel=one",
+              .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
+              .examples = {"fresnel=schlick f0=0.9 alpha=0.5", "fresnel=schlick f0=0.6 alpha=1",
+                           "kd=0.3 ks=0.6 alpha=0.3 fresnel=conductor n=0.2 k=3.4"}},
+             {.options = "compensation=slides masking=smith_correlated",
+              .energy_note = "for kd + ks <= 1, as kulla_conty; brighter than facets of that "
+                             "colour can be",
+              .conditions = {{.parameter = "alpha_v", .same_as = "alpha_u"}},
+              .examples = {"fresnel=schlick f0=0.5 alpha=0.8"}},
+             {.options = "masking=smith_correlated",
+              .energy = Energy::exceeds,
+              .energy_note = "anisotropic facets get what isotropic ones of alpha = "
+                             "sqrt(alpha_u alpha_v) lose: 1.091 is reached at 89.266 degrees "
+                             "and 0.4 rad from the tangent for alpha_u=0.2348 "
+                             "alpha_v=0.000588 fresnel=one",
+              .witness = "compensation=kulla_conty alpha_u=0.1725 alpha_v=0.00085 fresnel=one",
+              .witness_degrees = 89.387,
+              .at_most = 1.1,
+              .conditions = {{.parameter = "compensation", .choices = {"kulla_conty", "slides"}}},
+              .examples = {"compensation=kulla_conty alpha_u=0.1 alpha_v=0.5 fresnel=one"}}},
             .isotropy = "isotropic for alpha_u = alpha_v, else anisotropic",
             .sampling =
                 "one-sample mixture of the cosine (diffuse and compensation, by their "

@@ -74,21 +74,39 @@ const ModelDescription& he_torrance_description() {
               .kind = ParameterKind::wavelength,
               .unit = "nm",
               .high = 1e6}},
+        // The bound is measured: the maximum over sigma0, tau (in wavelengths) and the angle with F
+        // = 1, which every other F scales down. It lies at m = 2 sigma0/tau = 0.0039, cot(theta) =
+        // 1.66 m and kappa sigma0 m = 0.168; for a diffuse part kd is added.
         .behaviours =
             {{.options = "parallel=0.5",
-              .energy_note = "for kd = 0, to 1e-3 for facets that reflect everything; kd is "
-                             "added without taking anything from the highlight (albedo 1.87 for "
-                             "kd=1 n=1.3 k=1.3), so keep it below what facets do not reflect; "
-                             "clearly less than it gets "
-                             "at grazing incidence, where light scatters more than once",
+              .energy = Energy::exceeds,
+              .energy_note = "by 6.24 % at most, at 89.629 degrees for facets that reflect "
+                             "everything and lambda=83.18 sigma0=0.5721 tau=294.2; rougher "
+                             "surfaces return clearly less than they get at grazing incidence, "
+                             "where light scatters more than once",
+              .witness = "n=1e-8 k=20 lambda=83.18 sigma0=0.5721 tau=294.2",
+              .witness_degrees = 89.629,
+              .at_most = 1.0625,
               .conditions = {{.parameter = "kd", .high = 0.}},
               .examples = {"sigma0=0.18 tau=3", "sigma0=0.05 tau=1 n=0.2 k=3.4",
-                           "sigma0=0.5 tau=2.5 n=1.5 k=0 kd=0.3", "sigma0=0.2 tau=2 n=0.2 k=3.4",
+                           "sigma0=0.5 tau=2.5 n=1.5 k=0", "sigma0=0.2 tau=2 n=0.2 k=3.4",
                            "shadowing=printed sigma0=0.2 tau=1 n=0.2 k=3.4"}},
+             {.options = "parallel=0.5",
+              .energy = Energy::exceeds,
+              .energy_note = "kd is added without taking anything from the highlight, so keep it "
+                             "below what facets do not reflect",
+              .witness = "kd=1 n=1e-8 k=20 lambda=83.18 sigma0=0.5721 tau=294.2",
+              .witness_degrees = 89.629,
+              .at_most = 2.0625,
+              .examples = {"sigma0=0.5 tau=2.5 n=1.5 k=0 kd=0.3"}},
              {.options = "parallel=1",
               .reciprocal = false,
+              .energy = Energy::exceeds,
               .energy_note = "as for natural light; the polarisation is that of the light, so "
                              "exchanging the directions asks another question",
+              .witness = "n=1e-8 k=20 lambda=83.18 sigma0=0.5721 tau=294.2",
+              .witness_degrees = 89.629,
+              .at_most = 1.0625,
               .conditions = {{.parameter = "kd", .high = 0.}},
               .examples = {"sigma0=0.2 tau=1.5 n=1.5 k=0"}}},
         .sampling =

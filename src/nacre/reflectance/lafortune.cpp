@@ -55,17 +55,44 @@ void add_lobe(std::vector<Parameter>& parameters, int lobe, const LobeKeys& keys
     }
 }
 
-/// Parameters of which |M w| <= 1 and kd + ks + ks2 + ks3 <= 1 hold, whatever is drawn of them.
-std::vector<Condition> matrices_that_shrink() {
-    std::vector<Condition> all{{.parameter = "kd", .high = 0.1}};
-    for (int lobe = 0; lobe < 3; ++lobe) {
-        all.push_back({.parameter = lafortune_names[lobe][0], .high = 0.3});
-        for (int i = 1; i < 7; ++i) {
-            const double size = i < 4 ? 0.6 : 0.2;
-            all.push_back({.parameter = lafortune_names[lobe][i], .low = -size, .high = size});
-        }
+/// The largest |M w| over unit vectors w: |M^k|^(1/k) for k = 2^40, by squaring.
+double longest_axis(double (&m)[3][3]) {
+    double log_length = 0., share = 1.;
+    for (int step = 0; step < 40; ++step) {
+        double largest = 0., square[3][3] = {};
+        for (const auto& row : m)
+            for (double x : row) largest = std::max(largest, std::abs(x));
+        if (!(largest > 0.)) return 0.;
+        for (auto& row : m)
+            for (double& x : row) x /= largest;
+        log_length += share * std::log(largest);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < 3; ++k) square[i][j] += m[i][k] * m[k][j];
+        std::copy(&square[0][0], &square[0][0] + 9, &m[0][0]);
+        share *= 0.5;
     }
-    return all;
+    return std::exp(log_length);
+}
+
+/// Shortens the axes to |M w| <= 1 and lowers the weights to kd + ks + ks2 + ks3 <= 1.
+void bring_lobes_within(NamedNumbers& numbers) {
+    const auto number = [&](std::string_view name) -> double& {
+        return std::find_if(numbers.begin(), numbers.end(),
+                            [&](const auto& n) { return n.first == name; })
+            ->second;
+    };
+    double sum = number("kd");
+    for (const auto& names : lafortune_names) {
+        sum += number(names[0]);
+        const auto c = [&](int i) -> double& { return number(names[i]); };
+        double m[3][3] = {{c(1), c(4), c(5)}, {c(4), c(2), c(6)}, {c(5), c(6), c(3)}};
+        const double length = longest_axis(m) * (1. + 1e-12);
+        for (int i = 1; i < 7; ++i)
+            if (length > 1.) c(i) /= length;
+    }
+    for (std::string_view name : {"kd", "ks", "ks2", "ks3"})
+        if (sum > 1.) number(name) /= sum * (1. + 1e-12);
 }
 
 /// The reference vectors give lobes without weights, and matrices as nine numbers.
@@ -86,6 +113,8 @@ void adapt_vector(std::vector<Setting>& settings) {
 
 // The manual page of lafortune.h, apart from it for length.
 const ModelDescription& lafortune_description() {
+    static constexpr JointCondition within{"kd + ks + ks2 + ks3 up to 1 and |M w| up to |w|",
+                                           bring_lobes_within};
     static const LobeKeys keys[3] = {keys_of(0), keys_of(1), keys_of(2)};
     static const ModelDescription description = [] {
         ModelDescription d{
@@ -113,23 +142,24 @@ const ModelDescription& lafortune_description() {
                                        "without blur; for normal and density",
                             .kind = ParameterKind::spectrum}},
             .behaviours =
-                {{.options = "norm=normal",
-                  .energy_note = "for kd + ks + ks2 + ks3 <= 1 and |M w| <= 1",
-                  .conditions = matrices_that_shrink(),
-                  .examples =
-                      {"kd=0 ks=1 n=20", "kd=0 ks=1 n=5 cz=0.7",
-                       "kd=0.3 ks=0.6 n=8 cx=0.9 cy=0.9 cz=0.9", "kd=0 ks=1 cx=0 cy=0 n=1.5",
-                       "kd=0.2 ks=0.5 cx=-0.6 cxy=0.2 cxz=0.1 cz=0.8 n=6 ks2=0.3 n2=40 mirror=0.5",
-                       "kd=0 ks=0.4 ks2=0.3 ks3=0.3 cx2=-0.8 cy3=-0.7 n3=3"}},
-                 {.options = "norm=density",
-                  .energy_note = "as normal; ks (n+1)/(n+2) at normal incidence",
-                  .conditions = matrices_that_shrink(),
-                  .examples = {"kd=0 ks=1 n=20 mirror=1"}},
-                 {.options = "norm=none",
-                  .energy = Energy::exceeds,
-                  .energy_note = "up to the fit: ks |M w|^n 2 pi/(n+1) bounds the albedo",
-                  .witness = "kd=0 ks=1 cx=-1.1 cy=-1.1 cz=1.1 n=20",
-                  .examples = {"kd=0.1 ks=1 cx=-0.95 cy=-0.95 cz=0.9 n=12"}}},
+                // A cosine lobe holds the most light, 2 pi/(n+2), when its axis is the normal.
+            {{.options = "norm=normal",
+              .energy_note = "reached at normal incidence, by a lobe with cz = 1",
+              .joint = within,
+              .examples =
+                  {"kd=0 ks=1 n=20", "kd=0 ks=1 n=5 cz=0.7",
+                   "kd=0.3 ks=0.6 n=8 cx=0.9 cy=0.9 cz=0.9", "kd=0 ks=1 cx=0 cy=0 n=1.5",
+                   "kd=0.2 ks=0.5 cx=-0.6 cxy=0.2 cxz=0.1 cz=0.8 n=6 ks2=0.3 n2=40 mirror=0.5",
+                   "kd=0 ks=0.4 ks2=0.3 ks3=0.3 cx2=-0.8 cy3=-0.7 n3=3"}},
+             {.options = "norm=density",
+              .energy_note = "as normal; ks (n+1)/(n+2) at normal incidence",
+              .joint = within,
+              .examples = {"kd=0 ks=1 n=20 mirror=1"}},
+             {.options = "norm=none",
+              .energy = Energy::exceeds,
+              .energy_note = "up to the fit: ks |M w|^n 2 pi/(n+1) bounds the albedo",
+              .witness = "kd=0 ks=1 cx=-1.1 cy=-1.1 cz=1.1 n=20",
+              .examples = {"kd=0.1 ks=1 cx=-0.95 cy=-0.95 cz=0.9 n=12"}}},
             .isotropy = "isotropic for cx = cy, cxy = cxz = cyz = 0, else anisotropic",
             .sampling =
                 "one-sample mixture of the cosine and, for each lobe, (n+1)/(2 pi) cos^n "

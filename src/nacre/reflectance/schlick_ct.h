@@ -52,11 +52,20 @@ inline const ModelDescription& schlick_ct_description() {
                         .above_low = true,
                         .otherwise = 0.3,
                         .aliases = {"alpha"}}},
+        // Whatever f0, the highlight of narrow lobes has an albedo close to 1 near grazing
+        // incidence, so that it leaves nothing for kd.
         .behaviours = {{.options = "convention=normalized",
-                        .energy_note = "for kd + albedo of the highlight <= 1",
+                        .energy_note = "1 is approached as m goes to 0",
                         .conditions = {{.parameter = "kd", .high = 0.}},
-                        .examples = {"kd=0 f0=1 m=0.3", "kd=0.2 f0=0.5 m=0.6", "kd=0 f0=0.9 m=0.15",
+                        .examples = {"kd=0 f0=1 m=0.3", "kd=0 f0=0.5 m=0.6", "kd=0 f0=0.9 m=0.15",
                                      "kd=0 f0=1 m=0.3 masking=consistent"}},
+                       {.options = "convention=normalized",
+                        .energy = Energy::exceeds,
+                        .energy_note = "kd is added without taking anything from the highlight: up "
+                                       "to 1 + kd for f0 = 1 as m goes to 0",
+                        .witness = "kd=1 f0=1 m=0.001",
+                        .at_most = 2.,
+                        .examples = {"kd=0.2 f0=0.5 m=0.6"}},
                        {.options = "convention=literal",
                         .energy = Energy::exceeds,
                         .energy_note = "4 times too bright",

@@ -42,14 +42,17 @@ inline const ModelDescription& torrance_sparrow_description() {
                             .otherwise = 0.2}},
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
-                {{.options = "convention=normalized",
-                  .energy_note = "for kd + ks <= 1",
-                  .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.4 ks=0.6 m=0.4 n=1.8",
-                               "kd=0 ks=1 m=0.1 fresnel=conductor n=0.2 k=3.4 parallel=0.9"}},
-                 {.options = "convention=peak",
-                  .energy_note = "as long as C = 1 is below the normalised one, m < 0.39",
-                  .conditions = {{.parameter = "m", .high = 0.39}},
-                  .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.3 ks=0.7 m=0.3 n=1.8"}}},
+                // Smith's or V-shaped masking shares out the projected area of the facets: with a
+                // normalised density no more is reflected than meets the surface.
+            {{.options = "convention=normalized",
+              .energy_note = "for kd + ks <= 1",
+              .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.4 ks=0.6 m=0.4 n=1.8",
+                           "kd=0 ks=1 m=0.1 fresnel=conductor n=0.2 k=3.4 parallel=0.9"}},
+             {.options = "convention=peak",
+              .energy_note = "there C = 1 is below the normalised constant, which is 1 for m = "
+                             "0.45655",
+              .conditions = {{.parameter = "m", .high = 0.4565}},
+              .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.3 ks=0.7 m=0.3 n=1.8"}}},
             .sampling =
                 "one-sample mixture of the cosine and mirrored normals, whose angles have "
                 "the density theta exp(-theta^2/(2 m^2)); highlight by its Fresnel factor",
