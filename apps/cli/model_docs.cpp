@@ -180,9 +180,9 @@ Table lobe_table(const AnyModel& model) {
         t.columns.push_back(fmt::format("theta_i={:g}", a));
         t.names.push_back(fmt::format("incidence {:g}°", a));
     }
-    // A step of two degrees follows these lobes, meets their mirror directions, and keeps the
-    // picture small.
-    for (int out = -88; out <= 88; out += 2) {
+    // A step of a degree follows these lobes, meets their mirror directions, and keeps the picture
+    // small.
+    for (int out = -89; out <= 89; ++out) {
         std::vector<double> row{double(out)};
         for (double a : incidences) row.push_back(model.eval(in_plane(-a), in_plane(out)));
         t.rows.push_back(std::move(row));

@@ -203,12 +203,12 @@ std::string gnuplot_script(const Table& t, const fs::path& output, const std::st
         case PlotKind::polar: {
             const Extent e = lobes_extent(t);
             // The same steps along both axes: a flat plot would crowd steps of its own.
-            s += fmt::format("set tics {:.6g}\n",
+            s += fmt::format("set xtics nomirror {0:.6g}\nset ytics nomirror {0:.6g}\n",
                              step_of(std::max(e.right - e.left, e.top - e.bottom)));
             s += fmt::format(
                 "set size ratio -1\nset zeroaxis lt 1 lc rgb '#5c6065'\n"
                 "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
-                "set xlabel {} noenhanced\n",
+                "set xlabel {} noenhanced offset 0,0.4\n",
                 e.left, e.right, e.bottom, e.top, y_label);
             s += curves(t, "(${0}*sin($1*pi/180)):(${0}*cos($1*pi/180))");
             break;

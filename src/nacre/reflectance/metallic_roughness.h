@@ -41,7 +41,7 @@ inline const ModelDescription& metallic_roughness_description() {
                        {.name = "base_color",
                         .meaning = "albedo of the matt base, and normal reflectance of the metal",
                         .kind = ParameterKind::spectrum,
-                        .otherwise = 0.8,
+                        .otherwise = 0.5,
                         .aliases = {"baseColor"}},
                        {.name = "metallic", .meaning = "share of the metal", .otherwise = 0.},
                        {.name = "roughness",
@@ -68,8 +68,8 @@ inline const ModelDescription& metallic_roughness_description() {
                   "a white dielectric reflects nearly twice the light near grazing: 1 - Fd takes "
                   "its angle from the facet, which for diffuse light from above is far from "
                   "grazing, while the boundary mirrors all",
-              .witness = "base_color=1 metallic=0 roughness=0.1",
-              .witness_degrees = 89.,
+              .witness = "base_color=1 metallic=0 roughness=0.02",
+              .witness_degrees = 89.9,
               .at_most = 2.,
               .examples = {"base_color=0.8 roughness=0.3", "base_color=1 roughness=0.1",
                            "base_color=0.9 metallic=1 roughness=0.6"}},
