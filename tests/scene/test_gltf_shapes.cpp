@@ -258,10 +258,9 @@ TEST_F(GltfShapes, WrongPictures) {
                   scene(picture, textures, R"(<string name="colour" value="x"/>)");
               }).substr(0, 9),
               "row.png: ");
-    EXPECT_EQ(error_of([&] {
-                  scene(dielectric(), "", R"(<float name="size" value="1"/>)");
-              }).starts_with("scene.xml:1:"),
-              true);
+    EXPECT_EQ(error_of([&] { scene(dielectric(), "", R"(<float name="to_word" value="1"/>)"); }),
+              "scene.xml:1:137: <shape type=\"gltf\"> has no parameter 'to_word'; did you mean "
+              "'to_world'?");
 }
 
 TEST_F(GltfShapes, BareMeshesHaveTheirOwnMaterialsUnlessAnotherIsAskedFor) {

@@ -102,6 +102,8 @@ SceneNodePtr with_gltf_shapes(const SceneNodePtr& root, BuildContext& context) {
                 if (v.name != "filename" && v.name != "to_world" && v.name != "flip_tex_coords")
                     part->values.push_back(v);
             for (const SceneNode::Child& c : shape.children) part->children.push_back(c);
+            // Known here, for suggestions to those who misspell them.
+            for (const char* name : {"filename", "to_world", "flip_tex_coords"}) part->has(name);
             children.push_back({child.name, part, child.location});
         }
     }
