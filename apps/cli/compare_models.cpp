@@ -6,12 +6,12 @@
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/streams.h"
-#include "nacre/compare/model_document.h"
-#include "nacre/compare/report.h"
-#include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
+#include "nacre/report/experiment.h"
+#include "nacre/report/model_document.h"
+#include "nacre/report/report.h"
 #include "nacre/scene/split_words.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

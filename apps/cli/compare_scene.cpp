@@ -7,9 +7,9 @@
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress_bar.h"
 #include "apps/cli/streams.h"
-#include "nacre/compare/report.h"
-#include "nacre/compare/report_experiment.h"
 #include "nacre/math/error.h"
+#include "nacre/report/experiment.h"
+#include "nacre/report/report.h"
 #include "nacre/scene/split_words.h"
 #include "nacre/subsurface/missing_light.h"
 

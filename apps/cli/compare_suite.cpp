@@ -5,9 +5,9 @@
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/streams.h"
-#include "nacre/compare/report.h"
-#include "nacre/compare/report_suite.h"
 #include "nacre/math/error.h"
+#include "nacre/report/report.h"
+#include "nacre/report/suite.h"
 
 namespace nacre::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

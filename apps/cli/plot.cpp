@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "nacre/math/error.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

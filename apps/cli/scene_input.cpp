@@ -5,9 +5,9 @@
 
 #include "apps/cli/number_option.h"
 #include "apps/cli/verb.h"
+#include "nacre/image/image.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/demo_scene.h"
-#include "nacre/scene/image.h"
 #include "nacre/scene/load.h"
 
 namespace nacre::cli {

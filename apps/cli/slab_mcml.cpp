@@ -10,7 +10,7 @@
 #include "apps/cli/verb.h"
 #include "nacre/layers/mcml_io.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

@@ -1,87 +1,27 @@
 // nacre check: models against reference values and against their own claims.
 #include <CLI/CLI.hpp>
 #include <fstream>
-#include <set>
+#include <nlohmann/json.hpp>
 
 #include "apps/cli/number_option.h"
 #include "apps/cli/progress_bar.h"
-#include "apps/cli/vector_file.h"
-#include "apps/cli/vector_functions.h"
-#include "apps/cli/vector_scattering.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/reflectance/check.h"
+#include "nacre/reflectance/registry.h"
+#include "nacre/vectors/check.h"
 
 namespace nacre::cli {
-
-extern const char* const built_in_vectors;  // vectors.cpp, made at build time
 
 namespace {
 
 using nlohmann::json;
-
-/// Beyond this relative deviation, in double precision, a model is wrong.
-constexpr double tolerance = 1e-6;
 
 struct Options {
     std::string model, vectors;
     std::uint64_t seed = 1;
     int samples = 40000, random_sets = CheckOptions().random_sets;
 };
-
-struct GroupResult {
-    int count = 0;
-    double largest = 0.;
-    std::string where;
-};
-
-GroupResult compare(const GroupModel& who, const json& group) {
-    GroupResult result;
-    for (const auto& v : group.at("vectors")) {
-        const AnyModel model = model_of_vector(who, v.at("params"));
-        const double value = answer(who, model, direction_of(v.at("wi")), direction_of(v.at("wo")));
-        double deviation = relative_deviation(value, v.at("value").get<double>());
-        if (!std::isfinite(deviation)) deviation = infinite;
-        if (deviation >= result.largest) {
-            result.largest = deviation;
-            result.where = v.value("id", "");
-        }
-        ++result.count;
-    }
-    return result;
-}
-
-/// The same for functions; what they leave out of a vector's values is named in `omitted`.
-GroupResult compare(const VectorFunction& answer, const json& group,
-                    std::set<std::string>& omitted) {
-    GroupResult result;
-    for (const auto& v : group.at("vectors")) {
-        const auto values = answer(v);
-        const json expected = v.contains("values") ? v["values"] : json{{"value", v.at("value")}};
-        for (const auto& [name, number] : expected.items()) {
-            const auto found = values.find(name);
-            if (found == values.end()) {
-                omitted.insert(name);
-                continue;
-            }
-            double deviation = relative_deviation(found->second, number.get<double>());
-            // A quotient of rounded sums that should vanish (total reflection, Brewster's angle).
-            if (number.get<double>() == 0. && std::abs(found->second) < 1e-12) deviation = 0.;
-            if (!std::isfinite(deviation)) deviation = infinite;
-            if (deviation >= result.largest) {
-                result.largest = deviation;
-                result.where = v.value("id", "") + " " + name;
-            }
-            ++result.count;
-        }
-    }
-    return result;
-}
-
-void print_group(const std::string& name, std::string_view who, const GroupResult& r) {
-    fmt::print("{:<24} {:<30} {:>4}  {:<10.3g}{}\n", name, who, r.count, r.largest,
-               r.largest > tolerance ? " WRONG at " + r.where : "");
-}
 
 json parse_vectors(const std::string& path) {
     std::ifstream file(path);
@@ -93,45 +33,31 @@ json parse_vectors(const std::string& path) {
     }
 }
 
-int check_vectors(const std::string& path) {
+void print_reflectance(const VectorGroup& g) {
+    fmt::print("{:<24} {:<30} {:>4}  {:<10.3g}{}\n", g.name, g.who, g.count, g.deviation,
+               g.good ? "" : " WRONG at " + g.worst);
+}
+
+void print_scattering(const VectorGroup& g) {
+    constexpr const char* units[] = {"relative", "absolute", "standard errors"};
+    fmt::print("{:<26} {:>5}  {:<18.3g} {:<10.3g} {}{}\n", g.name, g.count, g.deviation,
+               g.tolerance, units[int(g.measure)], g.good ? "" : "  WRONG at " + g.worst);
+}
+
+int check_file(const std::string& path) {
     const json all = parse_vectors(path);
-    if (!all.contains("models") && is_scattering_file(all))
-        return check_scattering(all, path) ? success : failure;
-    if (!all.contains("models"))
-        throw InputError(
-            fmt::format("'{}' has neither \"models\", groups of reflectance vectors by name, nor a "
-                        "known group of "
-                        "scattering vectors",
-                        path));
-    fmt::print("{:<24} {:<30} {:>4}  {}\n", "group", "answered by", "n",
-               "largest relative deviation");
-    std::vector<std::string> missing;
-    bool good = true;
-    const auto check = [&](const std::string& name, const json& group) {
-        const GroupModel who = model_of_group(name);
-        const auto function = function_of_group(name);
-        if (!who.evaluator && !function) {
-            missing.push_back(name);
-            return;
-        }
-        try {
-            std::set<std::string> omitted;
-            const GroupResult r =
-                who.evaluator ? compare(who, group) : compare(function->answer, group, omitted);
-            print_group(name, who.evaluator ? who.evaluator->description().name : function->who, r);
-            for (const std::string& o : omitted) missing.push_back(name + "." + o);
-            good = good && r.largest <= tolerance;
-        } catch (const json::exception& error) {
-            throw InputError(fmt::format("group '{}' of '{}': {}", name, path, error.what()));
-        }
-    };
-    for (const char* kind : {"models", "scalars"})
-        if (all.contains(kind))
-            for (const auto& [name, group] : all[kind].items()) check(name, group);
-    for (const char* name : {"merl", "svd"})
-        if (all.contains(name)) missing.push_back(name);
-    if (!missing.empty()) fmt::print("\nnot covered: {}\n", fmt::join(missing, ", "));
-    return good ? success : failure;
+    const bool reflectance = kind_of_vectors(all, path) == VectorFile::reflectance;
+    if (reflectance)
+        fmt::print("{:<24} {:<30} {:>4}  {}\n", "group", "answered by", "n",
+                   "largest relative deviation");
+    else
+        fmt::print("{:<26} {:>5}  {:<18} {:<10} {}\n", "group", "n", "largest deviation",
+                   "tolerance", "in");
+    const VectorReport report =
+        check_vectors(all, path, reflectance ? print_reflectance : print_scattering);
+    if (!report.not_covered.empty())
+        fmt::print("\nnot covered: {}\n", fmt::join(report.not_covered, ", "));
+    return report.good() ? success : failure;
 }
 
 /// Tells of a model that takes long.
@@ -155,7 +81,6 @@ int check_models(const Options& o) {
         chosen = models();
     else
         chosen = {&find_evaluator(o.model).description()};
-    const json vectors = json::parse(built_in_vectors);
     bool good = true;
     const auto report = [&](bool passed, const std::string& name, const std::string& detail) {
         fmt::print("{:<5} {:<44} {}\n", passed ? "ok" : "WRONG", name, detail);
@@ -163,13 +88,9 @@ int check_models(const Options& o) {
     };
     for (const ModelDescription* m : chosen) {
         const Evaluator& evaluator = find_evaluator(m->name);
-        for (const ReferenceGroup& g : m->groups) {
-            if (!vectors["models"].contains(g.name)) continue;
-            const GroupResult r = compare({&evaluator, &g}, vectors["models"][std::string(g.name)]);
-            report(r.largest <= std::max(g.tolerance, 1e-9),
-                   fmt::format("{}: vectors {}", m->name, g.name),
-                   fmt::format("largest relative deviation {:.2g}", r.largest));
-        }
+        for (const VectorGroup& g : check_built_in_vectors(evaluator))
+            report(g.good, fmt::format("{}: vectors {}", m->name, g.name),
+                   fmt::format("largest relative deviation {:.2g}", g.deviation));
         CheckOptions options;
         options.seed = o.seed;
         options.samples = o.samples;
@@ -183,7 +104,7 @@ int check_models(const Options& o) {
 int run(const Options& o) {
     if (o.model.empty() == o.vectors.empty())
         throw InputError("give the name of a model, 'all', or --vectors FILE");
-    return o.model.empty() ? check_vectors(o.vectors) : check_models(o);
+    return o.model.empty() ? check_file(o.vectors) : check_models(o);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "apps/cli/number_option.h"
 #include "apps/cli/render_and_save.h"
 #include "apps/cli/scene_input.h"
+#include "nacre/image/image.h"
 #include "nacre/scene/demo_scene.h"
-#include "nacre/scene/image.h"
 
 namespace nacre::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include "apps/cli/number_option.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/verb.h"
-#include "nacre/compare/flip.h"
-#include "nacre/compare/metrics.h"
+#include "nacre/image/image.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/image.h"
+#include "nacre/metrics/flip.h"
+#include "nacre/metrics/metrics.h"
 #include "nacre/spectrum/color.h"
 
 namespace nacre::cli {

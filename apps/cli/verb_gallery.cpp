@@ -11,9 +11,9 @@
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
-#include "nacre/scene/whole_file.h"
 #include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

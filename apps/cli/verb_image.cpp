@@ -4,7 +4,7 @@
 #include "apps/cli/number_option.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/verb.h"
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 
 namespace nacre::cli {
 namespace {

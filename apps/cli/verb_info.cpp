@@ -6,8 +6,8 @@
 #include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
+#include "nacre/image/image.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/image.h"
 #include "nacre/scene/load.h"
 #include "nacre/subsurface/missing_light.h"
 

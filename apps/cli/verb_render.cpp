@@ -5,8 +5,8 @@
 #include "apps/cli/output_file.h"
 #include "apps/cli/render_and_save.h"
 #include "apps/cli/scene_input.h"
+#include "nacre/image/image.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/image.h"
 #include "nacre/subsurface/technique.h"
 
 namespace nacre::cli {

@@ -9,7 +9,7 @@
 #include "apps/cli/slab_profiles.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "nacre/image/image.h"
 #include "nacre/optics/media.h"
-#include "nacre/scene/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 #include "tests/compare/experiment_fixture.h"
 

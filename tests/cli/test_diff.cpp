@@ -1,7 +1,7 @@
 // nacre diff as its users meet it.
 #include <nlohmann/json.hpp>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

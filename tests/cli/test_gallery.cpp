@@ -1,5 +1,5 @@
 // nacre gallery: the shipped scenes, tiny.
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

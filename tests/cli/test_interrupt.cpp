@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

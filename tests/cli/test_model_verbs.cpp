@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nacre/bssrdf/profile.h"
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

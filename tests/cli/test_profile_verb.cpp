@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "nacre/bssrdf/profile.h"
+#include "nacre/image/image.h"
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/layers/skin.h"
-#include "nacre/scene/image.h"
 #include "tests/cli/subsurface_verbs.h"
 
 namespace nacre {

@@ -1,7 +1,7 @@
 // What is written where: standard output that fails, files beside others, inputs as outputs.
 #include <nlohmann/json.hpp>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {

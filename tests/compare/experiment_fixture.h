@@ -3,7 +3,7 @@
 #include "nacre/compare/experiment.h"
 #include "nacre/math/random.h"
 #include "nacre/scene/load.h"
-#include "tests/compare/pictures_fixture.h"
+#include "tests/metrics/pictures_fixture.h"
 #include "tests/scene/scene_files.h"
 
 namespace nacre::test {

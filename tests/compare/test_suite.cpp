@@ -5,7 +5,7 @@
 #include "nacre/compare/suite_objects.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/scene/content_key.h"
-#include "tests/compare/pictures_fixture.h"
+#include "tests/metrics/pictures_fixture.h"
 
 namespace nacre::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "nacre/image/image.h"
 #include "nacre/render/integrator.h"
-#include "nacre/scene/image.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/scene_files.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "nacre/image/image.h"
 #include "nacre/render/render.h"
-#include "nacre/scene/image.h"
 #include "nacre/scene/load.h"
 
 namespace nacre {

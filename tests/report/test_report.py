@@ -5,7 +5,7 @@
 
 Needs Debian's python3-selenium, chromium and chromium-driver; exits 77 with one line where they are absent, 1 with a
 list of what failed, 0 otherwise. Sections that the report does not have are not looked for. The ids that it relies on
-are listed at the head of src/nacre/compare/page/report.html.
+are listed at the head of src/nacre/report/page/report.html.
 """
 import argparse
 import json

@@ -1,8 +1,8 @@
 // glTF materials as those of a scene: values against the formulas of the specification.
 #include <numbers>
 
+#include "nacre/image/image.h"
 #include "nacre/scene/content_key.h"
-#include "nacre/scene/image.h"
 #include "nacre/spectrum/color.h"
 #include "tests/geometry/gltf_files.h"
 #include "tests/scene/scene_files.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "nacre/scene/material_types.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/material_fixture.h"

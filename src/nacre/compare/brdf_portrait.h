@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "nacre/image/image.h"
 #include "nacre/measured/target.h"
-#include "nacre/scene/image.h"
 
 namespace nacre {
 

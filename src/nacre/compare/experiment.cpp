@@ -7,7 +7,7 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/scene/subsurface.h"
-#include "nacre/scene/whole_file.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 namespace {

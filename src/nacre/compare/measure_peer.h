@@ -1,7 +1,7 @@
 #pragma once
 // Another renderer on the same scene, measured as techniques are.
 #include "nacre/compare/measurement.h"
-#include "nacre/compare/peer.h"
+#include "nacre/peers/peer.h"
 
 namespace nacre {
 

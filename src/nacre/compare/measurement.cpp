@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "nacre/compare/machine.h"
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/metrics/machine.h"
 
 namespace nacre {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "nacre/compare/pictures.h"
 #include "nacre/compare/technique_setting.h"
+#include "nacre/metrics/pictures.h"
 #include "nacre/render/render.h"
 
 namespace nacre {

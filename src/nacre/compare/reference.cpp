@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cmath>
 
-#include "nacre/compare/metrics.h"
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/metrics/metrics.h"
 #include "nacre/scene/content_key.h"
-#include "nacre/scene/whole_file.h"
 #include "nacre/subsurface/missing_light.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "nacre/compare/pictures.h"
 #include "nacre/compare/technique_setting.h"
+#include "nacre/metrics/pictures.h"
 #include "nacre/render/render.h"
 
 namespace nacre {

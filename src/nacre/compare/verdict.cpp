@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nacre/compare/flip.h"
+#include "nacre/metrics/flip.h"
 
 namespace nacre {
 namespace {

@@ -2,7 +2,7 @@
 // How far a measurement is from the reference: what is wrong with it however long it runs, and what
 // is noise of one frame.
 #include "nacre/compare/measurement.h"
-#include "nacre/compare/metrics.h"
+#include "nacre/metrics/metrics.h"
 
 namespace nacre {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "nacre/image/image.h"
 #include "nacre/render/render.h"
-#include "nacre/scene/image.h"
 
 namespace nacre {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "nacre/image/image.h"
 #include "nacre/scene/camera.h"
-#include "nacre/scene/image.h"
 #include "nacre/scene/light.h"
 #include "nacre/scene/material.h"
 #include "nacre/scene/medium.h"

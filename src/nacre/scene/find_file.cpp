@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "nacre/image/image.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/image.h"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The lights one by one, as make_light and make_area_light of build.h know them.
+#include "nacre/image/image.h"
 #include "nacre/scene/build.h"
-#include "nacre/scene/image.h"
 
 namespace nacre {
 

@@ -18,7 +18,7 @@
 
 #include <mutex>
 
-#include "nacre/scene/image.h"
+#include "nacre/image/image.h"
 #include "nacre/scene/texture_types.h"
 #include "nacre/spectrum/cie.h"
 #include "nacre/spectrum/color.h"

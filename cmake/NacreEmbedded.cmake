@@ -1,0 +1,21 @@
+# The page of reports (src/nacre/report/page) travels inside the library: page.cpp holds its files as strings.
+set(page ${PROJECT_SOURCE_DIR}/src/nacre/report/page)
+file(GLOB scripts CONFIGURE_DEPENDS ${page}/*.js)
+list(SORT scripts)
+set(NACRE_PAGE_SCRIPT "")
+foreach(script IN LISTS scripts)
+    file(READ ${script} text)
+    string(APPEND NACRE_PAGE_SCRIPT "${text}\n")
+endforeach()
+file(READ ${page}/report.html NACRE_PAGE_HTML)
+file(READ ${page}/report.css NACRE_PAGE_STYLE)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scripts} ${page}/report.html ${page}/report.css)
+configure_file(${page}/page.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/page.cpp @ONLY)
+target_sources(nacre_report PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
+
+# `nacre check MODEL` brings its reference values along, as a string of the room `vectors`.
+set(vectors ${PROJECT_SOURCE_DIR}/tests/reflectance/data/vectors.json)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${vectors})
+file(READ ${vectors} NACRE_VECTORS)
+configure_file(${PROJECT_SOURCE_DIR}/src/nacre/vectors/built_in.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/built_in_vectors.cpp @ONLY)
+target_sources(nacre_vectors PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/built_in_vectors.cpp)
