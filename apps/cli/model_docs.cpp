@@ -180,10 +180,11 @@ Table lobe_table(const AnyModel& model) {
         t.columns.push_back(fmt::format("theta_i={:g}", a));
         t.names.push_back(fmt::format("incidence {:g}°", a));
     }
-    // A step of a degree follows these lobes, meets their mirror directions, and keeps the picture
-    // small.
-    for (int out = -89; out <= 89; ++out) {
-        std::vector<double> row{double(out)};
+    // A step of one and a half degrees follows these lobes, meets their mirror directions, and
+    // keeps the picture small.
+    for (int i = -59; i <= 59; ++i) {
+        const double out = 1.5 * i;
+        std::vector<double> row{out};
         for (double a : incidences) row.push_back(model.eval(in_plane(-a), in_plane(out)));
         t.rows.push_back(std::move(row));
     }

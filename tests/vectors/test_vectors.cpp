@@ -31,8 +31,7 @@ TEST(ReferenceVectors, AgreeInDoublePrecision) {
     for_each_vector([&](const std::string&, const GroupModel& who, const nlohmann::json& v) {
         const AnyModel model = model_of_vector(who, v["params"]);
         const double expected = v["value"].get<double>();
-        const double value =
-            answer(who, model, direction_of(v["wi"]), direction_of(v["wo"]));
+        const double value = answer(who, model, direction_of(v["wi"]), direction_of(v["wo"]));
         EXPECT_LE(relative_deviation(value, expected), who.group->tolerance)
             << v["id"] << ": " << value << " instead of " << expected;
         ++count;
@@ -64,24 +63,22 @@ TEST(ReferenceVectors, AgreeInPacks) {
         std::vector<float> out(37, -1.f);
         model.eval_many(wi, wo, out);
         for (std::size_t i = 0; i < out.size(); ++i)
-            EXPECT_LE(relative_deviation(out[i], i % 3 == 2 ? 0. : v["value"].get<double>()),
-                      3e-5)
+            EXPECT_LE(relative_deviation(out[i], i % 3 == 2 ? 0. : v["value"].get<double>()), 3e-5)
                 << v["id"] << " at " << i;
     });
 }
 
 TEST(ReferenceVectors, AreExactlyZeroBelowTheHorizon) {
     int below = 0;
-    for_each_vector(
-        [&](const std::string& name, const GroupModel& who, const nlohmann::json& v) {
-            const Vec3d wi = direction_of(v["wi"]), wo = direction_of(v["wo"]);
-            const AnyModel model = model_of_vector(who, v["params"]);
-            const Vec3d down{wo.x, wo.y, -std::abs(wo.z)};
-            EXPECT_EQ(model.eval(wi, down), 0.) << name;
-            EXPECT_EQ(model.eval(down, wi), 0.) << name;
-            EXPECT_EQ(model.eval(down, down), 0.) << name;
-            below += wo.z < 0.;
-        });
+    for_each_vector([&](const std::string& name, const GroupModel& who, const nlohmann::json& v) {
+        const Vec3d wi = direction_of(v["wi"]), wo = direction_of(v["wo"]);
+        const AnyModel model = model_of_vector(who, v["params"]);
+        const Vec3d down{wo.x, wo.y, -std::abs(wo.z)};
+        EXPECT_EQ(model.eval(wi, down), 0.) << name;
+        EXPECT_EQ(model.eval(down, wi), 0.) << name;
+        EXPECT_EQ(model.eval(down, down), 0.) << name;
+        below += wo.z < 0.;
+    });
     EXPECT_GE(below, 14);
 }
 
