@@ -171,10 +171,17 @@ TEST(GltfMaterials, WrongValues) {
          "transmissionFactor is not a number"},
         {extension("volume_scatter", R"("scatterAnisotropy":1)"),
          "scatterAnisotropy is 1; it must lie within [-0.999, 0.999]"},
+        {extension("transmission", R"("transmissionTexture":{"index":-1})"),
+         "transmissionTexture names number -1; it must lie within [0, 2147483647]"},
+        {extension("transmission", R"("transmissionTexture":{"index":1e30})"),
+         "transmissionTexture names number 1e+30; it must lie within [0, 2147483647]"},
     };
     for (const auto& [json, what] : cases)
         EXPECT_EQ(message(json), what ? fmt::format("a.gltf: material 'm': {}", what)
                                       : "a.gltf: names texture 3, but there are 0");
+    // Would wrap to 1.
+    EXPECT_EQ(message(extension("transmission", R"("transmissionTexture":{"index":4294967297})")),
+              "a.gltf: has 4294967297 as 'index', which is out of range; export it again");
 }
 
 }  // namespace

@@ -77,14 +77,20 @@ std::string_view json_of_glb(const MeshSource& source) {
 }
 
 /// Refuses indices that do not fit 31 bits: tinygltf would wrap them to others that exist.
-void check_numbers(const MeshSource& source, const nlohmann::json& json, const std::string& name) {
+void check_numbers(const MeshSource& source, const nlohmann::json& json, const std::string& name,
+                   bool in_extension = false) {
     if (json.is_structured()) {
         for (const auto& [key, value] : json.items()) {
             const std::string& in = json.is_array() ? name : key;
+            // Of extensions, the textures that they name.
+            if (in == "extensions" || in_extension) {
+                if (value.is_structured() || in == "index" || in == "texCoord")
+                    check_numbers(source, value, in, true);
+                continue;
+            }
             // Sizes have 64 bits and are checked where they are used; the others are not read.
-            constexpr std::string_view others[] = {"byteLength", "byteOffset", "byteStride",
-                                                   "count",      "min",        "max",
-                                                   "extras",     "extensions"};
+            constexpr std::string_view others[] = {
+                "byteLength", "byteOffset", "byteStride", "count", "min", "max", "extras"};
             if (std::find(std::begin(others), std::end(others), in) == std::end(others))
                 check_numbers(source, value, in);
         }

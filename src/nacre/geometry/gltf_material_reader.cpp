@@ -88,6 +88,12 @@ class MaterialReader {
                 in_range(name, v[2], 0, high)};
     }
 
+    int index(const char* name, double v) const {
+        if (!(v >= 0. && v <= 0x7fffffff))
+            fail(fmt::format("{} names number {}; it must lie within [0, 2147483647]", name, v));
+        return static_cast<int>(v);
+    }
+
     /// The factor `name` of an extension.
     void get(Extension& e, const char* name, float& to, double low, double high) const {
         const Value* v = e.get(name);
@@ -108,7 +114,8 @@ class MaterialReader {
         const Value* v = e.get(name);
         if (!v || !v->IsObject()) return;
         const auto integer = [&](const char* key, int otherwise) {
-            return v->Has(key) && v->Get(key).IsNumber() ? v->Get(key).GetNumberAsInt() : otherwise;
+            if (!v->Has(key) || !v->Get(key).IsNumber()) return otherwise;
+            return index(name, v->Get(key).GetNumberAsDouble());
         };
         const Value extensions =
             v->Has("extensions") ? v->Get("extensions") : Value(Value::Object());
@@ -166,7 +173,7 @@ class MaterialReader {
         const Value* turn = e.get("rotation");
         const double angle = turn && turn->IsNumber() ? turn->GetNumberAsDouble() : 0.;
         if (const Value* set = e.get("texCoord"); set && set->IsNumber())
-            coordinates = set->GetNumberAsInt();
+            coordinates = index("KHR_texture_transform", set->GetNumberAsDouble());
         const double c = std::cos(angle), s = std::sin(angle);
         if (!(scale.x * scale.y != 0. &&
               std::isfinite(scale.x * scale.y + offset.x + offset.y + c)))
