@@ -137,7 +137,7 @@ TEST(GltfMaterials, PicturesInsideTheFileAreKept) {
         square_gltf(R"(,"materials":[{}],"images":[{"name":"bark","uri":"data:image/png;base64,)" +
                     base64("abc") + R"("}])"),
         "a.gltf");
-    EXPECT_EQ(o.images.at(0).bytes, "abc");
+    EXPECT_EQ(o.images.at(0).bytes(), "abc");
     EXPECT_EQ(o.images.at(0).name, "a.gltf: picture 'bark'");
 }
 

@@ -249,9 +249,10 @@ TEST_F(GltfShapes, PartsKeepWhatTheShapeSays) {
 
 TEST_F(GltfShapes, WrongPictures) {
     const std::string picture = dielectric(R"(,"baseColorTexture":{"index":0})");
-    EXPECT_EQ(error_of([&] { scene(picture, textures); }),
-              "row.png: cannot be read, but the glTF names it as a texture; put it there, or give "
-              "the object a material of nacre's");
+    EXPECT_EQ(
+        error_of([&] { scene(picture, textures); }),
+        "row.png: cannot be opened (No such file or directory); check the path; the glTF names "
+        "it as a texture: put it there, or give the object a material of nacre's");
     write("row.png", "GIF89a");
     EXPECT_EQ(error_of([&] { scene(picture, textures); }), "row.png: is neither PNG nor JPEG");
     EXPECT_EQ(error_of([&] {

@@ -1,6 +1,7 @@
 #include "nacre/geometry/gltf_materials.h"
 
 #include "nacre/geometry/gltf_material_reader.h"
+#include "nacre/math/error.h"
 
 namespace nacre {
 namespace {
@@ -63,8 +64,8 @@ std::string decoded(const std::string& uri) {
 
 GltfImage image_of(const MeshSource& source, const tinygltf::Image& from, std::size_t index) {
     GltfImage r;
-    r.bytes.assign(from.image.begin(), from.image.end());
-    if (r.bytes.empty() && !from.uri.empty())
+    r.inside.assign(from.image.begin(), from.image.end());
+    if (r.inside.empty() && !from.uri.empty())
         r.path = source.path.parent_path() / decoded(from.uri);
     r.name = !r.path.empty()      ? r.path.string()
              : !from.name.empty() ? fmt::format("{}: picture '{}'", source.path.string(), from.name)
@@ -84,13 +85,7 @@ void mark_used(const tinygltf::Model& model, std::vector<GltfMaterial>& material
 /// set are left out.
 int choose_coordinates(GltfMaterial& m) {
     int chosen = -1;
-    for (const auto& [name, texture] :
-         {std::pair{"baseColorTexture", &m.base_color_texture},
-          {"metallicRoughnessTexture", &m.metallic_roughness_texture},
-          {"emissiveTexture", &m.emissive_texture},
-          {"transmissionTexture", &m.transmission_texture},
-          {"diffuseTransmissionTexture", &m.diffuse_transmission_texture},
-          {"diffuseTransmissionColorTexture", &m.diffuse_transmission_color_texture}}) {
+    for (const auto& [name, texture, color] : m.textures()) {
         if (texture->image < 0) continue;
         if (chosen < 0) chosen = texture->coordinates;
         if (texture->coordinates == chosen) continue;
@@ -106,6 +101,27 @@ int choose_coordinates(GltfMaterial& m) {
 bool GltfTexture::laid_on_as(const GltfTexture& o) const {
     return coordinates == o.coordinates && wrap_u == o.wrap_u && wrap_v == o.wrap_v &&
            nearest == o.nearest && to_uv.matrix() == o.to_uv.matrix();
+}
+
+std::array<GltfMaterial::NamedTexture, 6> GltfMaterial::textures() {
+    return {{{"baseColorTexture", &base_color_texture, true},
+             {"metallicRoughnessTexture", &metallic_roughness_texture, false},
+             {"emissiveTexture", &emissive_texture, true},
+             {"transmissionTexture", &transmission_texture, false},
+             {"diffuseTransmissionTexture", &diffuse_transmission_texture, false},
+             {"diffuseTransmissionColorTexture", &diffuse_transmission_color_texture, true}}};
+}
+
+std::string GltfImage::bytes() const {
+    if (path.empty()) return inside;
+    try {
+        return read_bytes(path);
+    } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}; the glTF names it as a texture: put it there, or give the object a "
+                        "material of nacre's",
+                        error.what()));
+    }
 }
 
 bool GltfObject::has_materials() const {

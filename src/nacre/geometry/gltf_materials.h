@@ -2,6 +2,7 @@
 // What a glTF file says its surfaces are made of, and its triangles by material. glTF 2.0 (Khronos
 // 2021) with the extensions KHR_materials_{diffuse_transmission, emissive_strength, ior, specular,
 // transmission, volume, volume_scatter} and KHR_texture_transform.
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -59,13 +60,23 @@ struct GltfMaterial {
 
     /// What of the above the file says in other words, which nacre has no equal of.
     std::vector<std::string> left_out;
+
+    struct NamedTexture {
+        const char* name;  ///< the format's
+        GltfTexture* texture;
+        bool color;  ///< sRGB; else numbers as they are stored
+    };
+    /// All of them, in the order in which they stand here.
+    std::array<NamedTexture, 6> textures();
 };
 
-/// A picture as the file holds it: PNG or JPEG. In a file of its own: `path`; else `bytes`.
+/// A picture as the file holds it: PNG or JPEG. In a file of its own: `path`; else `inside`.
 struct GltfImage {
     std::string name;  ///< for messages
     std::filesystem::path path;
-    std::string bytes;
+    std::string inside;
+
+    std::string bytes() const;  ///< throws InputError if the file cannot be read
 };
 
 struct GltfPart {

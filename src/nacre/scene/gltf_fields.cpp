@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "nacre/scene/content_key.h"
 
 namespace nacre {
@@ -22,18 +19,6 @@ const char* word(GltfTexture::Wrap wrap) {
     return "repeat";
 }
 
-std::string bytes_of(const GltfImage& image) {
-    if (image.path.empty()) return image.bytes;
-    std::ifstream file(image.path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file || bytes.empty())
-        throw InputError(fmt::format(
-            "{}: cannot be read, but the glTF names it as a texture; put it there, or give the "
-            "object a material of nacre's",
-            image.name));
-    return bytes;
-}
-
 }  // namespace
 
 GltfFields::GltfFields(const GltfObject& object, GltfMaterial& material, BuildContext& context)
@@ -42,41 +27,28 @@ GltfFields::GltfFields(const GltfObject& object, GltfMaterial& material, BuildCo
 }
 
 void GltfFields::read_textures() {
-    struct Use {
-        const char* name;
-        GltfTexture& texture;
-        bool raw;
-        const Image*& pixels;
-    };
-    const Use uses[] = {
-        {"baseColorTexture", m_.base_color_texture, false, base_},
-        {"metallicRoughnessTexture", m_.metallic_roughness_texture, true, metallic_roughness_},
-        {"emissiveTexture", m_.emissive_texture, false, emissive_},
-        {"transmissionTexture", m_.transmission_texture, true, transmission_},
-        {"diffuseTransmissionTexture", m_.diffuse_transmission_texture, true, diffuse_},
-        {"diffuseTransmissionColorTexture", m_.diffuse_transmission_color_texture, false,
-         diffuse_color_}};
-    for (const Use& use : uses) {
-        if (use.texture.image < 0) continue;
-        if (layout_ && !use.texture.laid_on_as(*layout_)) {
-            m_.left_out.push_back(fmt::format("{} (laid on otherwise than others)", use.name));
-            use.texture = {};
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const auto [name, texture, color] = m_.textures()[i];
+        if (texture->image < 0) continue;
+        if (layout_ && !texture->laid_on_as(*layout_)) {
+            m_.left_out.push_back(fmt::format("{} (laid on otherwise than others)", name));
+            *texture = {};
             continue;
         }
-        if (!layout_) layout_ = &use.texture;
-        use.pixels = &pixels(use.texture, use.raw);
-        width_ = std::max(width_, use.pixels->width);
-        height_ = std::max(height_, use.pixels->height);
+        if (!layout_) layout_ = texture;
+        pixels_[i] = &pixels(texture->image, !color);
+        width_ = std::max(width_, pixels_[i]->width);
+        height_ = std::max(height_, pixels_[i]->height);
     }
 }
 
-const Image& GltfFields::pixels(const GltfTexture& texture, bool raw) {
-    Layer& layer = layers_[texture.image];
+const Image& GltfFields::pixels(int index, bool raw) {
+    Layer& layer = layers_[index];
     std::shared_ptr<const Image>& image = raw ? layer.raw : layer.linear;
     if (!image) {
-        const GltfImage& from = object_.images[std::size_t(texture.image)];
+        const GltfImage& from = object_.images[std::size_t(index)];
         if (context_.files && !from.path.empty()) context_.files->push_back(from.path);
-        image = std::make_shared<Image>(parse_image(bytes_of(from), from.name, {.raw = raw}));
+        image = std::make_shared<Image>(parse_image(from.bytes(), from.name, {.raw = raw}));
     }
     return *image;
 }
@@ -110,9 +82,9 @@ std::array<float, 4> GltfFields::sample(const Image* image, int x, int y) const 
 }
 
 GltfTexel GltfFields::texel(int x, int y) const {
-    const auto base = sample(base_, x, y), mr = sample(metallic_roughness_, x, y),
-               e = sample(emissive_, x, y), t = sample(transmission_, x, y),
-               d = sample(diffuse_, x, y), dc = sample(diffuse_color_, x, y);
+    const auto at = [&](std::size_t i) { return sample(pixels_[i], x, y); };
+    // In the order of GltfMaterial::textures.
+    const auto base = at(0), mr = at(1), e = at(2), t = at(3), d = at(4), dc = at(5);
     const auto product = [](const Vec3f& f, const std::array<float, 4>& c) {
         return Vec3f{f.x * c[0], f.y * c[1], f.z * c[2]};
     };

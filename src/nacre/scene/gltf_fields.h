@@ -48,7 +48,7 @@ class GltfFields {
     struct Layer {
         std::shared_ptr<const Image> linear, raw;  ///< sRGB decoded, as stored
     };
-    const Image& pixels(const GltfTexture& texture, bool raw);
+    const Image& pixels(int index, bool raw);
     std::array<float, 4> sample(const Image* image, int x, int y) const;
 
     const GltfObject& object_;
@@ -57,8 +57,7 @@ class GltfFields {
     std::map<int, Layer> layers_;
     const GltfTexture* layout_ = nullptr;  ///< of all textures; null: there is none
     int width_ = 1, height_ = 1;
-    const Image *base_ = nullptr, *metallic_roughness_ = nullptr, *emissive_ = nullptr,
-                *transmission_ = nullptr, *diffuse_ = nullptr, *diffuse_color_ = nullptr;
+    std::array<const Image*, 6> pixels_{};  ///< of GltfMaterial::textures, null: none
 };
 
 }  // namespace nacre

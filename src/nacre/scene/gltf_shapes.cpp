@@ -10,26 +10,20 @@ namespace nacre {
 namespace {
 
 /// A primitive without a material has the format's default one: a rough white metal.
-const GltfMaterial default_material() {
+GltfMaterial default_material() {
     GltfMaterial m;
     m.name = "default";
     return m;
 }
 
-/// The textures of a mesh without coordinates show one texel, whichever.
+/// Without coordinates textures would show one texel, whichever.
 void drop_textures(GltfMaterial& m) {
-    m.left_out.emplace_back("textures (the mesh has no coordinates for them)");
-    for (GltfTexture* t : {&m.base_color_texture, &m.metallic_roughness_texture,
-                           &m.emissive_texture, &m.transmission_texture,
-                           &m.diffuse_transmission_texture, &m.diffuse_transmission_color_texture})
-        *t = {};
-}
-
-bool has_textures(const GltfMaterial& m) {
-    return m.base_color_texture.image >= 0 || m.metallic_roughness_texture.image >= 0 ||
-           m.emissive_texture.image >= 0 || m.transmission_texture.image >= 0 ||
-           m.diffuse_transmission_texture.image >= 0 ||
-           m.diffuse_transmission_color_texture.image >= 0;
+    bool any = false;
+    for (const auto& t : m.textures()) {
+        any |= t.texture->image >= 0;
+        *t.texture = {};
+    }
+    if (any) m.left_out.emplace_back("textures (the mesh has no coordinates for them)");
 }
 
 void warn_about_left_out(const GltfObject& object, const std::vector<GltfMaterial>& materials,
@@ -67,7 +61,7 @@ std::vector<NodePtr> make_gltf_shapes(const GltfObject& object, const std::strin
         materials.push_back(part.material < 0 ? default_material()
                                               : object.materials[std::size_t(part.material)]);
         GltfMaterial& m = materials.back();
-        if (part.mesh->uvs.empty() && has_textures(m)) drop_textures(m);
+        if (part.mesh->uvs.empty()) drop_textures(m);
         auto shape = make_node("shape", "gltf");
         shape->id = object.parts.size() == 1 ? name : fmt::format("{}: {}", name, m.name);
         add_gltf_material(shape, object, m, unit, context);
