@@ -6,7 +6,7 @@
 #include "apps/cli/number_option.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/content_key.h"
-#include "nacre/scene/split_words.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre::cli {
 

@@ -10,7 +10,7 @@
 #include "nacre/report/experiment.h"
 #include "nacre/report/model_document.h"
 #include "nacre/report/report.h"
-#include "nacre/scene/split_words.h"
+#include "nacre/text/split_words.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre::cli {

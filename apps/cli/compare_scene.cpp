@@ -10,8 +10,8 @@
 #include "nacre/math/error.h"
 #include "nacre/report/experiment.h"
 #include "nacre/report/report.h"
-#include "nacre/scene/split_words.h"
 #include "nacre/subsurface/missing_light.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/cli/streams.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 
 namespace nacre::cli {
 

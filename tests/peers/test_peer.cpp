@@ -11,7 +11,7 @@
 #include "nacre/peers/mesh.h"
 #include "nacre/peers/view.h"
 #include "nacre/peers/xml.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 #include "tests/peers/peer_fixture.h"
 
 namespace nacre {

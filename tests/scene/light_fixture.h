@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "nacre/math/random.h"
-#include "nacre/scene/light_types.h"
+#include "nacre/scene/lights/types.h"
 #include "tests/geometry/shapes.h"
 #include "tests/scene/scene_files.h"
 

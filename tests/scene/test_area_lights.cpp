@@ -1,6 +1,6 @@
 // Lights of shapes against closed forms: what they send to a point, and that densities are those of
 // the samples.
-#include "nacre/scene/light_rectangle.h"
+#include "nacre/scene/lights/rectangle.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/light_fixture.h"
 #include "tests/support/statistics.h"

@@ -9,7 +9,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/scene/load.h"
-#include "nacre/scene/volume_grid.h"
+#include "nacre/scene/media/volume_grid.h"
 
 namespace nacre {
 namespace {

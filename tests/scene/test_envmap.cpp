@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "nacre/math/random.h"
-#include "nacre/scene/light_types.h"
+#include "nacre/scene/lights/types.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/scene_files.h"
 #include "tests/support/statistics.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "nacre/math/error.h"
-#include "nacre/scene/xml_values.h"
+#include "nacre/scene/xml/values.h"
 
 namespace nacre {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "nacre/image/image.h"
-#include "nacre/scene/material_types.h"
+#include "nacre/scene/materials/types.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/material_fixture.h"
 

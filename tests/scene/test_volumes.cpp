@@ -1,7 +1,7 @@
 #include <cstring>
 
 #include "nacre/math/random.h"
-#include "nacre/scene/volume_grid.h"
+#include "nacre/scene/media/volume_grid.h"
 #include "tests/scene/scene_files.h"
 
 namespace nacre {

@@ -10,10 +10,10 @@
 #include "nacre/compare/suite_objects.h"
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/scene/media/volume_grid.h"
 #include "nacre/scene/scene_builder.h"
-#include "nacre/scene/split_words.h"
-#include "nacre/scene/volume_grid.h"
-#include "nacre/scene/write_nodes.h"
+#include "nacre/scene/xml/write_nodes.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "nacre/bssrdf/profile.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/split_words.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre {
 namespace {

@@ -7,8 +7,8 @@
 #include "nacre/peers/albedo.h"
 #include "nacre/peers/cycles_scene.h"
 #include "nacre/peers/mesh.h"
-#include "nacre/scene/material_index.h"
-#include "nacre/scene/material_microfacet.h"
+#include "nacre/scene/materials/index.h"
+#include "nacre/scene/materials/microfacet.h"
 #include "nacre/scene/subsurface.h"
 
 namespace nacre {

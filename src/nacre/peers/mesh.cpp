@@ -4,7 +4,7 @@
 
 #include "nacre/geometry/tessellate.h"
 #include "nacre/math/error.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre {

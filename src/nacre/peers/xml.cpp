@@ -11,7 +11,7 @@
 #include "nacre/peers/mesh.h"
 #include "nacre/peers/view.h"
 #include "nacre/peers/xml_values.h"
-#include "nacre/scene/material_index.h"
+#include "nacre/scene/materials/index.h"
 
 namespace nacre {
 namespace {

@@ -2,7 +2,7 @@
 // Parameters of scene nodes as XML. Used by the peer Mitsuba only.
 #include <pugixml.hpp>
 
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 
 namespace nacre {
 

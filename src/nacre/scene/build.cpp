@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "nacre/scene/find_file.h"
+#include "nacre/scene/xml/find_file.h"
 
 namespace nacre {
 namespace {

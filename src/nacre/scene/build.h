@@ -12,8 +12,8 @@
 #include "nacre/scene/light.h"
 #include "nacre/scene/material.h"
 #include "nacre/scene/medium.h"
-#include "nacre/scene/scene_node.h"
 #include "nacre/scene/texture.h"
+#include "nacre/scene/xml/scene_node.h"
 
 namespace nacre {
 

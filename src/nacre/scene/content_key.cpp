@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "nacre/math/random.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 
 namespace nacre {
 namespace {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "nacre/geometry/figure.h"
-#include "nacre/scene/light_types.h"
+#include "nacre/scene/lights/types.h"
 #include "nacre/scene/scene_builder.h"
-#include "nacre/scene/write_nodes.h"
+#include "nacre/scene/xml/write_nodes.h"
 
 namespace nacre {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "nacre/illumination/light_convention.h"
 #include "nacre/illumination/models.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 #include "nacre/spectrum/spectrum.h"
 
 namespace nacre {

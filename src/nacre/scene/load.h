@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nacre/scene/scene.h"
-#include "nacre/scene/scene_node.h"
+#include "nacre/scene/xml/scene_node.h"
 
 namespace nacre {
 

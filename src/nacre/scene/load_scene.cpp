@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "nacre/scene/gltf_shapes.h"
+#include "nacre/scene/gltf/shapes.h"
 #include "nacre/scene/legacy_settings.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"

@@ -9,7 +9,7 @@
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
 #include "nacre/scene/scene_builder.h"
-#include "nacre/scene/write_nodes.h"
+#include "nacre/scene/xml/write_nodes.h"
 
 namespace nacre {
 namespace {

@@ -9,8 +9,8 @@
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/surface_sampling.h"
 #include "nacre/render/volume_path_tracer.h"
-#include "nacre/scene/split_words.h"
 #include "nacre/subsurface/rough_half_space.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre {
 namespace {

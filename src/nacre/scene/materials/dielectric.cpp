@@ -1,0 +1,82 @@
+// <bsdf type="dielectric">: a smooth boundary between two clear media.
+//
+//   int_ior  (bk7)   index inside, that is, away from the normal; see index.h
+//   ext_ior  (air)   index outside
+//   specular_reflectance, specular_transmittance (1)  factors without physical meaning
+//
+// Fresnel's equations choose between reflection and refraction. Radiance changes by 1/eta^2 when it
+// crosses the boundary (F. E. Nicodemus 1963, Radiance, American Journal of Physics 31(5)). Where
+// the index depends on wavelength, the refracted direction belongs to the first lane alone.
+#include "nacre/optics/fresnel.h"
+#include "nacre/scene/materials/index.h"
+#include "nacre/scene/materials/types.h"
+
+namespace nacre {
+namespace {
+
+class Dielectric final : public Material {
+  public:
+    Dielectric(RelativeIndex index, TexturePtr reflectance, TexturePtr transmittance)
+        : index_(std::move(index)),
+          reflectance_(std::move(reflectance)),
+          transmittance_(std::move(transmittance)) {}
+
+    unsigned flags() const override { return reflects | transmits | has_delta; }
+    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f&,
+                  const Wavelengths&) const override {
+        return Spectral(0.f);
+    }
+    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f&, const Wavelengths&) const override {
+        return 0.f;
+    }
+
+    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1, Vec2f,
+                                         const Wavelengths& w) const override {
+        const bool outside = wo.z >= 0.f;
+        const Spectral inner = index_.eval(w), eta = outside ? inner : 1.f / inner;
+        const Spectral fresnel = fresnel_dielectric(std::abs(wo.z), eta);
+        const float reflected = fresnel[0];
+
+        MaterialSample s;
+        s.delta = true;
+        if (u1 < reflected) {
+            s.wi = {-wo.x, -wo.y, wo.z};
+            s.pdf = reflected;
+            s.weight = reflectance_->eval(at.uv, w) * fresnel / reflected;
+            return s;
+        }
+        s.eta = eta[0];
+        s.wi = refract(wo, Vec3f{0.f, 0.f, outside ? 1.f : -1.f}, s.eta);
+        s.pdf = 1.f - reflected;
+        if (s.wi.z == 0.f) return std::nullopt;
+        s.weight = transmittance_->eval(at.uv, w) / (s.eta * s.eta);
+        s.single_wavelength = index_.is_dispersive() && w.mode == ColorMode::spectral;
+        if (s.single_wavelength) s.weight = Spectral(s.weight[0], 0.f, 0.f, 0.f);
+        return s;
+    }
+    float smooth_boundary_eta() const override {
+        return index_.is_dispersive() || !is_one(*reflectance_) || !is_one(*transmittance_)
+                   ? 0.f
+                   : index_.nominal();
+    }
+    bool is_spectral() const override {
+        return index_.is_dispersive() || reflectance_->is_spectral() ||
+               transmittance_->is_spectral();
+    }
+
+  private:
+    static bool is_one(const Texture& t) { return t.max() == 1.f && t.mean() == 1.f; }
+
+    RelativeIndex index_;
+    TexturePtr reflectance_, transmittance_;
+};
+
+}  // namespace
+
+MaterialPtr make_dielectric(const SceneNode& node, BuildContext& context) {
+    return std::make_shared<Dielectric>(
+        RelativeIndex(node, "bk7"), get_reflectance(node, "specular_reflectance", 1.f, context),
+        get_reflectance(node, "specular_transmittance", 1.f, context));
+}
+
+}  // namespace nacre

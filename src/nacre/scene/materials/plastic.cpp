@@ -1,0 +1,157 @@
+// <bsdf type="plastic"> and <bsdf type="roughplastic">: a matt base below a clear boundary, smooth
+// or rough; black from the inside.
+//
+//   diffuse_reflectance (0.5)
+//   nonlinear (false)               whether colours saturate by scattering between base and boundary
+//   int_ior (polypropylene), ext_ior (air)   one index for all wavelengths; see index.h
+//   specular_reflectance (1)        a factor without physical meaning
+//   distribution, alpha, sample_visible      roughplastic only, alpha a number; see microfacet.h
+//
+// Samples are shared between mirror and base by the boundary's reflectance and the mean
+// reflectances of both.
+#include "nacre/optics/fresnel_moments.h"
+#include "nacre/reflectance/rough_plastic.h"
+#include "nacre/scene/materials/index.h"
+#include "nacre/scene/materials/microfacet.h"
+
+namespace nacre {
+namespace {
+
+struct PlasticParameters {
+    float eta;
+    bool nonlinear;
+    TexturePtr diffuse, specular;
+    float specular_weight;  ///< mean specular reflectance over the sum of both means
+
+    PlasticParameters(const SceneNode& node, BuildContext& context)
+        : eta(get_relative_index(node, "polypropylene")),
+          nonlinear(node.get_bool("nonlinear", false)),
+          diffuse(get_reflectance(node, "diffuse_reflectance", 0.5f, context)),
+          specular(get_reflectance(node, "specular_reflectance", 1.f, context)) {
+        const float s = specular->mean(), d = diffuse->mean();
+        specular_weight = s + d > 0.f ? s / (s + d) : 0.f;
+    }
+    bool is_spectral() const { return diffuse->is_spectral() || specular->is_spectral(); }
+};
+
+class PlasticMaterial final : public Material {
+  public:
+    explicit PlasticMaterial(PlasticParameters parameters)
+        : p_(std::move(parameters)),
+          internal_(static_cast<float>(diffuse_reflectance_internal(p_.eta))) {}
+
+    unsigned flags() const override { return reflects | has_smooth | has_delta; }
+    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
+                  const Wavelengths& w) const override {
+        return base(at, w).eval(wi, wo) * wi.z;
+    }
+    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
+              const Wavelengths& w) const override {
+        return wo.z > 0.f ? base(at, w).pdf(wi, wo) * (1.f - mirror_probability(wo)) : 0.f;
+    }
+    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
+                                         Vec2f u2, const Wavelengths& w) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        const float mirror = mirror_probability(wo);
+        MaterialSample s;
+        if (u1 < mirror) {
+            s.wi = {-wo.x, -wo.y, wo.z};
+            s.pdf = mirror;
+            s.delta = true;
+            s.weight = p_.specular->eval(at.uv, w) * (fresnel_dielectric(wo.z, p_.eta) / mirror);
+            return s;
+        }
+        const auto m = base(at, w);
+        s.wi = m.sample(wo, u2);
+        s.pdf = m.pdf(s.wi, wo) * (1.f - mirror);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = m.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+    bool is_spectral() const override { return p_.is_spectral(); }
+
+  private:
+    Plastic<float, Spectral> base(const SurfacePoint& at, const Wavelengths& w) const {
+        return {p_.diffuse->eval(at.uv, w), p_.eta, internal_, p_.nonlinear};
+    }
+    float mirror_probability(const Vec3f& wo) const {
+        const float f = fresnel_dielectric(wo.z, p_.eta);
+        const float mirror = f * p_.specular_weight, matt = (1.f - f) * (1.f - p_.specular_weight);
+        return mirror + matt > 0.f ? mirror / (mirror + matt) : 0.f;
+    }
+
+    PlasticParameters p_;
+    float internal_;
+};
+
+template <class Distribution>
+class RoughPlasticMaterial final : public Material {
+  public:
+    RoughPlasticMaterial(PlasticParameters parameters, Roughness roughness, RoughBoundary boundary)
+        : p_(std::move(parameters)), roughness_(std::move(roughness)), boundary_(boundary) {}
+
+    unsigned flags() const override { return reflects | has_smooth; }
+    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
+                  const Wavelengths& w) const override {
+        return model(at, w).eval(wi, wo) * wi.z;
+    }
+    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
+              const Wavelengths& w) const override {
+        return model(at, w).pdf(wi, wo);
+    }
+    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
+                                         Vec2f u2, const Wavelengths& w) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        const auto m = model(at, w);
+        MaterialSample s;
+        s.wi = m.sample(wo, u1, u2);
+        s.pdf = m.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = m.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+    bool is_spectral() const override { return p_.is_spectral(); }
+
+  private:
+    RoughPlastic<Spectral, Distribution> model(const SurfacePoint& at, const Wavelengths& w) const {
+        return {roughness_.at<Distribution>(at.uv),
+                {p_.diffuse->eval(at.uv, w), p_.eta, boundary_.internal, p_.nonlinear},
+                p_.specular->eval(at.uv, w),
+                &boundary_,
+                p_.specular_weight,
+                roughness_.sampling};
+    }
+
+    PlasticParameters p_;
+    Roughness roughness_;
+    RoughBoundary boundary_;
+};
+
+}  // namespace
+
+MaterialPtr make_plastic(const SceneNode& node, BuildContext& context) {
+    return std::make_shared<PlasticMaterial>(PlasticParameters(node, context));
+}
+
+MaterialPtr make_roughplastic(const SceneNode& node, BuildContext& context) {
+    PlasticParameters parameters(node, context);
+    for (const char* name : {"alpha_u", "alpha_v"})
+        if (node.has(name))
+            node.fail_at(name, fmt::format("{} is isotropic; give 'alpha'", node.describe()));
+    if (node.child("alpha", "texture"))
+        node.fail_at("alpha", fmt::format("'alpha' of {} must be a number: its boundary is "
+                                          "tabulated for one roughness",
+                                          node.describe()));
+    Roughness roughness = get_roughness(node, context);
+    const double alpha = std::max(roughness.alpha_u->eval_scalar({}), 1e-4f);
+    if (roughness.ggx) {
+        const RoughBoundary boundary(Ggx<double>{alpha, alpha}, parameters.eta);
+        return std::make_shared<RoughPlasticMaterial<Ggx<float>>>(std::move(parameters),
+                                                                  std::move(roughness), boundary);
+    }
+    const RoughBoundary boundary(Beckmann<double>{alpha, alpha}, parameters.eta);
+    return std::make_shared<RoughPlasticMaterial<Beckmann<float>>>(std::move(parameters),
+                                                                   std::move(roughness), boundary);
+}
+
+}  // namespace nacre
