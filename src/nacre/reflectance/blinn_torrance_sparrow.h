@@ -53,7 +53,7 @@ inline const ModelDescription& blinn_torrance_sparrow_description() {
                             .aliases = {"beta_deg"}}},
             .behaviours =
                 // The highlight is 4 ks/D_n times that of facets with a normalised density in
-                // V-shaped grooves, which reflect at most what they get.
+            // V-shaped grooves, which reflect at most what they get.
             {{.energy_note =
                   "D_n, the peak of the normalised density, is (Ns+2)/(2 pi), 1/(pi C2^2) or, "
                   "of the Gaussian, torrance_sparrow's C of m = beta/sqrt(2 ln 2)",

@@ -110,7 +110,7 @@ inline const ModelDescription& cook_torrance_description() {
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
                 // Masking that belongs to the density shares out the projected area of the facets,
-                // so that no more is reflected than meets the surface.
+            // so that no more is reflected than meets the surface.
             {{.options = "convention=normalized masking=v_cavity",
               .energy_note = "for kd + ks <= 1",
               .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.2 ks=0.8 width=half_height beta=15",

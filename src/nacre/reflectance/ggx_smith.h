@@ -76,8 +76,8 @@ inline const ModelDescription& ggx_smith_description() {
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
                 // Smith's masking shares out the projected area of the facets: E is at most 1, and
-                // E + (1 - E) F_ms with F_ms <= 1 too, if E is that of the facets: alpha_u =
-                // alpha_v.
+            // E + (1 - E) F_ms with F_ms <= 1 too, if E is that of the facets: alpha_u =
+            // alpha_v.
             {{.options = "compensation=none",
               .energy_note = "for kd + ks <= 1",
               .examples = {"fresnel=one alpha=0.2", "fresnel=one alpha=0.9 masking=smith",

@@ -76,7 +76,7 @@ const ModelDescription& schlick_description() {
              layer("k2", "masking of the second layer, with masking=given", 0.1, false)},
         .behaviours =
             // p = 1 is GGX facets with Smith's masking, which reflect no more than they get, and
-            // two constant layers are a mean of such lobes. Of two others each is at most 1.
+        // two constant layers are a mean of such lobes. Of two others each is at most 1.
         {{.options = "form=masked masking=ggx layers=one",
           .energy_note = "for p = 1 exactly; the most with any p is approached at normal "
                          "incidence as r goes to 0",

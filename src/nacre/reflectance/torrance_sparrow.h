@@ -43,7 +43,7 @@ inline const ModelDescription& torrance_sparrow_description() {
             .bounds = {{.parameters = {"kd", "ks"}}},
             .behaviours =
                 // Smith's or V-shaped masking shares out the projected area of the facets: with a
-                // normalised density no more is reflected than meets the surface.
+            // normalised density no more is reflected than meets the surface.
             {{.options = "convention=normalized",
               .energy_note = "for kd + ks <= 1",
               .examples = {"kd=0 ks=1 m=0.2 fresnel=one", "kd=0.4 ks=0.6 m=0.4 n=1.8",
