@@ -1,4 +1,6 @@
+#include "nacre/render/film_state.h"
 #include "nacre/render/render.h"
+#include "nacre/render/render_job.h"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +89,35 @@ TEST(RenderLoop, SameBitsForAnyNumberOfThreads) {
             scene.sampler.seed = 1;
             EXPECT_FALSE(same_bits(one.film, render(scene, noisy, {.threads = 2}).film));
         }
+}
+
+/// Whoever drives the job: tiles from the last to the first, each batch by batch, the film kept and
+/// taken up by another job in between.
+TEST(RenderLoop, SameBitsTileByTileAndBatchByBatch) {
+    Scene scene = test_scene(53, 37, 21);
+    scene.sampler.type = "sobol";
+    scene.film.filter.type = "mitchell";
+    const RenderResult loop = render(scene, noisy);
+    RenderJob early(scene, noisy, FrameSettings::of(scene)),
+        late(scene, noisy, FrameSettings::of(scene));
+    EXPECT_EQ(early.total(), 53u * 37u * 21u);
+    SampleRange batch = early.batch_after(0);
+    std::uint64_t added = 0;
+    for (; batch.last < 8; batch = early.batch_after(batch.last))
+        for (int t = early.tile_count(); t-- > 0;) added += early.render(early.tile(t), batch);
+    late.film() = FilmState::decode(FilmState::encode(early.film(), {})).film;
+    for (int t = 0; t < late.tile_count(); ++t)
+        for (SampleRange b = batch; b.first < b.last; b = late.batch_after(b.last))
+            added += late.render(late.tile(t), b);
+    EXPECT_EQ(added, late.total());
+    EXPECT_TRUE(same_bits(loop.film, late.film()));
+    // A frame of other samples leaves the scene as it is.
+    FrameSettings frame = FrameSettings::of(scene);
+    frame.sampler.seed = 1;
+    const RenderResult other = render(scene, noisy, frame);
+    EXPECT_FALSE(same_bits(loop.film, other.film));
+    EXPECT_EQ(other.sampler.seed, 1u);
+    EXPECT_EQ(scene.sampler.seed, 0u);
 }
 
 TEST(RenderLoop, ACropWindowHasTheBitsOfTheWholeFilm) {

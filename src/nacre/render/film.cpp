@@ -53,7 +53,7 @@ void Film::add(int x, int y, std::uint32_t sample, const Vec3f& rgb, float filte
     for (int c = 0; c < 3; ++c)
         if (!std::isfinite(rgb[c]) || (rgb[c] < 0.f && !may_be_negative))
             return add_invalid(x, y, sample, rgb);
-    Sums& p =
+    PixelSums& p =
         filter_weight < 0.f && !negative_.empty() ? negative_[index(x, y)] : pixels_[index(x, y)];
     for (int c = 0; c < 3; ++c) {
         p.sum[c] += rgb[c];
@@ -66,6 +66,10 @@ void Film::add_invalid(int x, int y, std::uint32_t sample, const Vec3f& value) {
     ++pixels_[index(x, y)].invalid;
     const InvalidSample s{x + settings_.crop_x, y + settings_.crop_y, sample, value};
     const std::lock_guard lock(*invalid_mutex_);
+    keep_invalid(s);
+}
+
+void Film::keep_invalid(const InvalidSample& s) {
     // Sorted and cut, so that what is kept does not depend on which thread came first.
     invalid_.insert(std::upper_bound(invalid_.begin(), invalid_.end(), s,
                                      [](auto& a, auto& b) { return order(a) < order(b); }),
@@ -73,18 +77,53 @@ void Film::add_invalid(int x, int y, std::uint32_t sample, const Vec3f& value) {
     if (invalid_.size() > kept_invalid_samples) invalid_.pop_back();
 }
 
-double Film::Sums::variance(int c) const {
+void Film::merge(const Film& other) {
+    const FilmSettings &a = settings_, &b = other.settings_;
+    const int dx = b.crop_x - a.crop_x, dy = b.crop_y - a.crop_y;
+    const bool same = a.width == b.width && a.height == b.height && a.filter == b.filter &&
+                      a.sample_border == b.sample_border && a.quantity == b.quantity;
+    if (!same || dx < 0 || dy < 0 || dx + other.width_ > width_ || dy + other.height_ > height_)
+        throw InputError(fmt::format(
+            "a film of {} cannot be added to one of {}: they must show the same picture, and its "
+            "window must lie within this one's",
+            other.describe(), describe()));
+    for (int y = 0; y < other.height_; ++y)
+        for (int x = 0; x < other.width_; ++x) {
+            const std::size_t to = index(x + dx, y + dy), from = other.index(x, y);
+            pixels_[to] += other.pixels_[from];
+            if (!negative_.empty()) negative_[to] += other.negative_[from];
+        }
+    for (const InvalidSample& s : other.invalid_) keep_invalid(s);
+}
+
+std::string Film::describe() const {
+    const FilmSettings& s = settings_;
+    return fmt::format("{} x {} pixels, window {},{} {}x{}, {} filter", s.width, s.height, s.crop_x,
+                       s.crop_y, s.crop_width, s.crop_height, s.filter.type);
+}
+
+PixelSums& PixelSums::operator+=(const PixelSums& o) {
+    for (int c = 0; c < 3; ++c) {
+        sum[c] += o.sum[c];
+        sum2[c] += o.sum2[c];
+    }
+    count += o.count;
+    invalid += o.invalid;
+    return *this;
+}
+
+double PixelSums::variance(int c) const {
     if (count < 2) return 0;
     return std::max(0.0, (sum2[c] - sum[c] * sum[c] / count) / (count - 1.0));
 }
 
 Vec3f Film::mean(int x, int y) const {
-    const Sums& p = pixels_[index(x, y)];
+    const PixelSums& p = pixels_[index(x, y)];
     Vec3f r;
     for (int c = 0; c < 3; ++c) {
         double mean = p.mean(c);
         if (!negative_.empty()) {
-            const Sums& n = negative_[index(x, y)];
+            const PixelSums& n = negative_[index(x, y)];
             // With samples of one kind only the other lobe is taken to look the same.
             const double plus = p.count ? mean : n.mean(c), minus = n.count ? n.mean(c) : plus;
             const double w = absolute_integral(x, y);
@@ -96,12 +135,12 @@ Vec3f Film::mean(int x, int y) const {
 }
 
 Vec3f Film::sample_variance(int x, int y) const {
-    const Sums& p = pixels_[index(x, y)];
+    const PixelSums& p = pixels_[index(x, y)];
     Vec3f r;
     for (int c = 0; c < 3; ++c) {
         double variance = p.variance(c);
         if (!negative_.empty()) {
-            const Sums& n = negative_[index(x, y)];
+            const PixelSums& n = negative_[index(x, y)];
             const double w = absolute_integral(x, y), a = 0.5 * (w + 1), b = 0.5 * (w - 1);
             const double all = double(p.count) + n.count;
             if (p.count && n.count)
@@ -120,7 +159,7 @@ std::uint32_t Film::count(int x, int y) const {
 
 std::uint64_t Film::invalid_count() const {
     std::uint64_t n = 0;
-    for (const Sums& p : pixels_) n += p.invalid;
+    for (const PixelSums& p : pixels_) n += p.invalid;
     return n;
 }
 

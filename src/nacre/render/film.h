@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "nacre/math/vec.h"
@@ -15,6 +16,17 @@ struct InvalidSample {
     int x, y;  ///< of the full film
     std::uint32_t sample;
     Vec3f value;
+};
+
+/// What a film knows of one pixel.
+struct PixelSums {
+    double sum[3]{}, sum2[3]{};  ///< of the samples and of their squares: R, G, B
+    std::uint32_t count = 0;
+    std::uint32_t invalid = 0;
+
+    PixelSums& operator+=(const PixelSums& o);
+    double mean(int c) const { return count ? sum[c] / count : 0; }
+    double variance(int c) const;  ///< of one sample
 };
 
 /// Linear RGB means with variances. Each pixel is written by one thread at a time (a tile), so no
@@ -56,14 +68,15 @@ class Film {
     /// The first invalid samples in the order of rows, columns and samples; at most 16.
     std::vector<InvalidSample> invalid_samples() const;
 
+    /// Adds the samples of another film of the same picture, or of a crop window within this
+    /// one's: tiles and batches that were rendered elsewhere. Throws InputError if it shows another
+    /// picture. Sums of different samples of a pixel may round otherwise than in one film.
+    void merge(const Film& other);
+
   private:
-    struct Sums {
-        double sum[3]{}, sum2[3]{};
-        std::uint32_t count = 0;
-        std::uint32_t invalid = 0;
-        double mean(int c) const { return count ? sum[c] / count : 0; }
-        double variance(int c) const;
-    };
+    friend class FilmState;
+    void keep_invalid(const InvalidSample& s);
+    std::string describe() const;
     std::size_t index(int x, int y) const { return std::size_t(y) * width_ + x; }
 
     FilmSettings settings_;
@@ -72,8 +85,8 @@ class Film {
     /// film are of the part of the filter that lies on it.
     std::vector<float> column_absolute_, row_absolute_;
     double absolute_integral(int x, int y) const { return column_absolute_[x] * row_absolute_[y]; }
-    std::vector<Sums> pixels_;
-    std::vector<Sums> negative_;  ///< samples of negative lobes; empty if the filter has none
+    std::vector<PixelSums> pixels_;
+    std::vector<PixelSums> negative_;  ///< samples of negative lobes; empty if the filter has none
     std::vector<InvalidSample> invalid_;
     std::unique_ptr<std::mutex> invalid_mutex_;  ///< apart, so that a film can be moved
 };

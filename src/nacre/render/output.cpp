@@ -29,11 +29,11 @@ void add_metadata(Image& image, const RenderResult& result, const Scene& scene,
     put("version", origin.version);
     put("scene", origin.scene_file);
     put("mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb");
-    put("quantity", unit(scene.film.quantity));
-    put("integrator", scene.integrator.type);
-    put("sampler", scene.sampler.type);
-    put("seed", fmt::to_string(scene.sampler.seed));
-    put("samples", fmt::to_string(scene.sampler.samples));
+    put("quantity", unit(result.film.settings().quantity));
+    put("integrator", result.integrator);
+    put("sampler", result.sampler.type);
+    put("seed", fmt::to_string(result.sampler.seed));
+    put("samples", fmt::to_string(result.sampler.samples));
     put("complete", result.complete ? "yes" : "no");
     const FilmSettings& f = result.film.settings();
     if (f.crop_width != f.width || f.crop_height != f.height)
@@ -55,7 +55,7 @@ void add_metadata(Image& image, const RenderResult& result, const Scene& scene,
 
 Image render_image(const RenderResult& result, const Scene& scene, const RenderOrigin& origin) {
     const Film& film = result.film;
-    const bool color = scene.film.quantity == FilmQuantity::radiance;
+    const bool color = film.settings().quantity == FilmQuantity::radiance;
     std::vector<std::string> names =
         color ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
     const std::size_t n = names.size();

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "nacre/render/film.h"
+#include "nacre/render/frame_settings.h"
 #include "nacre/render/integrator.h"
 
 namespace nacre {
@@ -29,33 +30,38 @@ struct RenderOptions {
 
 struct RenderResult {
     Film film;
+    SamplerSettings sampler = {};  ///< of the frame
+    std::string integrator = {};   ///< what rendered it, for the picture's metadata
     /// False: stopped or timed out; the film holds what there is, nothing if that was in
     /// precomputation.
     bool complete = true;
     double seconds = 0;  ///< wall time of the render without precomputation
     double cpu_seconds = 0;
     double precompute_seconds = 0, precompute_cpu_seconds = 0;
-    RayCounts counts;
-    Statistics statistics = {};  ///< of the integrator
+    RayCounts counts = {};
+    Statistics statistics = {};  ///< of precomputation
 };
 
-/// Renders the scene. The same scene and seed give the same bits for any number of threads, and a
+/// Renders a frame. The same scene and seed give the same bits for any number of threads, and a
 /// pixel has the same bits in a crop window as in the whole film.
 ///
-/// What the film holds (scene.film.quantity): radiance, linear RGB; luminance, cd/m^2 in all three
+/// What the film holds (its `quantity`): radiance, linear RGB; luminance, cd/m^2 in all three
 /// channels, where a radiance of 1 is 1 W m^-2 sr^-1 nm^-1 at every wavelength; illuminance, the
 /// lux that a surface facing the pixel's direction receives from within the pixel (luminance times
 /// the pixel's solid angle as seen from the middle of the lens), so that the sum over a region
-/// around a lamp is the lux from that lamp. Throws InputError if illuminance is asked of a camera
-/// whose rays are parallel.
-RenderResult render(const Scene& scene, const RenderOptions& options = {});
-/// The same with an integrator that `make` makes; what that takes is precomputation, which is
-/// stopped and timed out too.
-using MakeIntegrator = std::unique_ptr<Integrator> (*)(const Scene& scene, const Work& work);
-RenderResult render_with(const Scene& scene, MakeIntegrator make,
-                         const RenderOptions& options = {});
-/// The same with a given integrator in place of the one that the scene names.
+/// around a lamp is the lux from that lamp. Throws InputError as RenderJob does.
+RenderResult render(const Scene& scene, const Integrator& integrator, const FrameSettings& frame,
+                    const RenderOptions& options = {});
+/// The scene's own frame.
 RenderResult render(const Scene& scene, const Integrator& integrator,
                     const RenderOptions& options = {});
+/// With the integrator that the scene names; making it is precomputation.
+RenderResult render(const Scene& scene, const RenderOptions& options = {});
+
+/// Renders with what is prepared first: `prepare` returns it, and its precomputation counts as such
+/// and is stopped and timed out too (the film is empty then).
+using RenderPrepared = std::function<RenderResult(const RenderOptions& options)>;
+RenderResult prepare_and_render(const std::function<RenderPrepared(const Work& work)>& prepare,
+                                const FrameSettings& frame, const RenderOptions& options = {});
 
 }  // namespace nacre

@@ -34,6 +34,8 @@ struct FilterSettings {
     float radius = 0.f;  ///< 0: the type's default (box 0.5, tent 1, gaussian 4 stddev, mitchell 2)
     float stddev = 0.5f;                 ///< gaussian
     float b = 1.f / 3.f, c = 1.f / 3.f;  ///< mitchell
+
+    bool operator==(const FilterSettings&) const = default;
 };
 
 enum class FilmQuantity { radiance, luminance, illuminance };
