@@ -10,6 +10,7 @@
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/xml/scene_node.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 
@@ -60,7 +61,7 @@ const Verb& find_verb(const std::string& name) {
         if (name == v.name) return v;
         known.emplace_back(v.name);
     }
-    throw InputError(fmt::format("unknown verb '{}'{}", name, suggestion(name, known)));
+    throw InputError(unknown_name("verb", name, known));
 }
 
 /// The subcommand that was parsed last: where words that nobody took were meant to go.
@@ -77,7 +78,7 @@ void refuse_extras(const CLI::App& app) {
         for (const CLI::Option* o : innermost(app).get_options())
             for (const std::string& n : o->get_lnames()) known.push_back("--" + n);
         const std::string name = word.substr(0, word.find('='));
-        throw InputError(fmt::format("unknown option '{}'{}", name, suggestion(name, known)));
+        throw InputError(unknown_name("option", name, known));
     }
     if (!extras.empty())
         throw InputError(fmt::format("unexpected argument '{}'; see 'nacre help'", extras.front()));

@@ -6,6 +6,7 @@
 
 #include "apps/cli/model_page.h"
 #include "apps/cli/plot.h"
+#include "nacre/catalogue/describe.h"
 #include "nacre/math/error.h"
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/output.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nacre/math/error.h"
-#include "nacre/optics/names.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {

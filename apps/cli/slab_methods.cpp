@@ -11,7 +11,7 @@
 #include "nacre/layers/kubelka_munk.h"
 #include "nacre/layers/slab_monte_carlo.h"
 #include "nacre/math/error.h"
-#include "nacre/optics/names.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "apps/cli/subsurface_page.h"
 
 #include "apps/cli/model_page.h"
+#include "nacre/catalogue/describe.h"
 
 namespace nacre::cli {
 

@@ -78,7 +78,7 @@ std::vector<CheckOutcome> check_model_aloud(const Evaluator& evaluator,
 int check_models(const Options& o) {
     std::vector<const ModelDescription*> chosen;
     if (o.model == "all")
-        chosen = models();
+        chosen.assign(models().begin(), models().end());
     else
         chosen = {&find_evaluator(o.model).description()};
     bool good = true;

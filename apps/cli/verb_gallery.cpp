@@ -13,6 +13,7 @@
 #include "nacre/scene/load.h"
 #include "nacre/subsurface/missing_light.h"
 #include "nacre/subsurface/technique.h"
+#include "nacre/text/names.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre::cli {

@@ -10,11 +10,11 @@
 #include "nacre/layers/skin.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
-#include "nacre/optics/names.h"
 #include "nacre/optics/phase.h"
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/integrator.h"
 #include "nacre/scene/build.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {

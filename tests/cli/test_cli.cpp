@@ -228,7 +228,7 @@ TEST_F(CommandLine, ModelsListsEveryMeasuredMedium) {
     EXPECT_EQ(marble["eta"], 1.5);
     const Outcome r = nacre("models show marbel");
     EXPECT_EQ(r.code, 2);
-    EXPECT_TRUE(r.err.starts_with("nacre: unknown model \"marbel\": did you mean \"Marble\"?"));
+    EXPECT_TRUE(r.err.starts_with("nacre: unknown model 'marbel'; did you mean 'Marble'?"));
 }
 
 TEST_F(CommandLine, InfoDescribesImagesMeshesAndScenes) {

@@ -217,7 +217,7 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
         {"compare --suite translucency --spp 4,8",
          "--suite takes one number of samples; give one to --spp"},
         {"compare ball.xml --suite translucency", "--suite brings its own scenes: leave out scene"},
-        {"compare ball.xml --peer blendr", "unknown peer \"blendr\""},
+        {"compare ball.xml --peer blendr", "unknown peer 'blendr'"},
         {"compare --models ward", "--models needs --fit-to"},
         {"compare --fit-to ggx", "--fit-to belongs to --models, which is missing"},
         {"compare --models ward --fit-to ggx --spp 4", "--spp has no meaning for --models"},

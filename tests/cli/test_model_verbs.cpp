@@ -146,7 +146,7 @@ TEST_F(ModelVerbs, ModelsListsAndShowsProfilesTechniquesAndSkin) {
     EXPECT_EQ(json::parse(nacre("models show two-pass --json").out)["kind"], "technique");
     shown("skin", {"Skin Optics", "nacre slab --skin"});
     EXPECT_TRUE(nacre("models show dipol")
-                    .err.starts_with("nacre: unknown model \"dipol\": did you mean \"dipole\"?"));
+                    .err.starts_with("nacre: unknown model 'dipol'; did you mean 'dipole'?"));
 }
 
 TEST_F(ModelVerbs, ShowPrintsTheManualPage) {

@@ -38,9 +38,9 @@ TEST(TechniqueSettings, MistakesAreNamed) {
         const std::string text = message_of([&] { parse_techniques(list, {1}); });
         return text.substr(0, text.find('?') + 1);
     };
-    EXPECT_EQ(begins("twopas"), "unknown technique \"twopas\": did you mean \"two_pass\"?");
+    EXPECT_EQ(begins("twopas"), "unknown technique 'twopas'; did you mean 'two_pass'?");
     EXPECT_EQ(begins("surface:profile=diple"),
-              "unknown diffusion profile \"diple\": did you mean \"dipole\"?");
+              "unknown diffusion profile 'diple'; did you mean 'dipole'?");
 }
 
 TEST_F(ExperimentTest, ASceneIsLeftAsItWas) {

@@ -85,12 +85,10 @@ TEST(Media, AreFoundRegardlessOfCaseAndSpaces) {
     EXPECT_EQ(measured_media().size(), 47u);
     EXPECT_EQ(measured_medium("skim milk").name, "Skimmilk");
     EXPECT_EQ(measured_medium("HEAD & shoulders_shampoo").name, "Head & Shoulders Shampoo");
-    EXPECT_TRUE(
-        starts_with(message([] { measured_medium("marbel"); }),
-                    "unknown measured medium \"marbel\": did you mean \"Marble\"? known are "
-                    "Apple, Chicken1, "));
+    EXPECT_TRUE(starts_with(message([] { measured_medium("marbel"); }),
+                            "unknown measured medium 'marbel'; did you mean 'Marble'?"));
     EXPECT_TRUE(starts_with(message([] { measured_medium("plutonium"); }),
-                            "unknown measured medium \"plutonium\": known are Apple, "));
+                            "unknown measured medium 'plutonium'; known are: Apple, "));
 }
 
 TEST(Dielectrics, NamedIndices) {
@@ -100,8 +98,7 @@ TEST(Dielectrics, NamedIndices) {
     EXPECT_FLOAT_EQ(dielectric_index("carbon_tetrachloride"), 1.461f);
     EXPECT_EQ(dielectric_names().size(), 23u);
     EXPECT_TRUE(starts_with(message([] { dielectric_index("diamnd"); }),
-                            "unknown dielectric \"diamnd\": did you mean \"diamond\"? known are "
-                            "vacuum, helium, "));
+                            "unknown dielectric 'diamnd'; did you mean 'diamond'?"));
 }
 
 TEST(Dielectrics, DispersionHasThePublishedIndexAndAbbeNumber) {
@@ -172,7 +169,7 @@ TEST(Conductors, ReflectLikeTheMetalsTheyAre) {
         EXPECT_GT(metal.eta->rgb().x, 0.f) << name;
     }
     EXPECT_TRUE(starts_with(message([] { conductor_index("Pb"); }),
-                            "unknown conductor \"Pb\": known are Ag, Al, Au, "));
+                            "unknown conductor 'Pb'; known are: Ag, Al, Au, "));
 }
 
 }  // namespace nacre

@@ -216,8 +216,7 @@ TEST(Phase, RefusesWrongInput) {
     EXPECT_EQ(message([] { PhaseFunction::two_term_hg(1.5f, 0.f, 0.f); }),
               "phase function two_term_hg: the share 1.5 of the first term must lie in [0, 1]");
     EXPECT_EQ(message([] { PhaseFunction::named("raleigh"); }),
-              "unknown phase function \"raleigh\": did you mean \"rayleigh\"? known are isotropic, "
-              "rayleigh, mie_hazy, mie_murky, mie_murky_33, hg, schlick, cornette_shanks");
+              "unknown phase function 'raleigh'; did you mean 'rayleigh'?");
     EXPECT_EQ(PhaseFunction::named("Mie Murky").name(), "mie_murky");
 }
 

@@ -60,10 +60,10 @@ TEST(WrongParameters, UnknownNamesGetASuggestion) {
         }
         return std::string();
     };
-    EXPECT_NE(message("cook_torrance", "masking=vcavty").find("did you mean \"v_cavity\"?"),
+    EXPECT_NE(message("cook_torrance", "masking=vcavty").find("did you mean 'v_cavity'?"),
               std::string::npos)
         << message("cook_torrance", "masking=vcavty");
-    EXPECT_NE(message("he_torrance", "sigma=0.1").find("did you mean \"sigma0\"?"),
+    EXPECT_NE(message("he_torrance", "sigma=0.1").find("did you mean 'sigma0'?"),
               std::string::npos);
     EXPECT_NE(message("lafortune", "ks4=0.1").find("unknown parameter"), std::string::npos)
         << message("lafortune", "ks4=0.1");

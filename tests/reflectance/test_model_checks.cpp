@@ -93,7 +93,7 @@ TEST_P(EveryModel, HasACompleteDescription) {
     EXPECT_LE(m.parameters.size(), std::size_t(max_parameters));
     for (const Parameter& p : m.parameters) {
         EXPECT_FALSE(p.meaning.empty()) << p.name;
-        EXPECT_NO_THROW(check_range(m, p, p.otherwise)) << p.name;
+        EXPECT_NO_THROW(check_range(m.name, p, p.otherwise)) << p.name;
         EXPECT_EQ(p.kind == ParameterKind::choice, !p.choices.empty()) << p.name;
         if (p.kind == ParameterKind::choice) {
             EXPECT_EQ(p.high, double(p.choices.size()) - 1.) << p.name;

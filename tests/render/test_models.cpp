@@ -45,7 +45,7 @@ class ModelRenders : public RenderTest {
         std::string inside;
         const ModelDescription& model = find_evaluator(c.model).description();
         for (const Setting& s : parse_settings(c.settings)) {
-            const int position = find_parameters(model, s.name).front();
+            const int position = find_parameters(model.name, model.parameters, s.name).front();
             const ParameterKind kind = model.parameters[std::size_t(position)].kind;
             if (const auto* word = std::get_if<std::string>(&s.value))
                 inside += fmt::format("<string name=\"{}\" value=\"{}\"/>", s.name, *word);

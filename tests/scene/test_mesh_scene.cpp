@@ -170,7 +170,7 @@ TEST_F(MeshSceneFiles, RefusesWrongInput) {
     // The name of the medium is checked before the file is opened.
     const std::string message =
         error_of([&] { load_mesh_scene(folder_ / "no.obj", {.material = "marbel"}); });
-    EXPECT_TRUE(message.starts_with("unknown measured medium \"marbel\": did you mean \"Marble\"?"))
+    EXPECT_TRUE(message.starts_with("unknown measured medium 'marbel'; did you mean 'Marble'?"))
         << message;
 }
 

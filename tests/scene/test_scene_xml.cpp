@@ -1,5 +1,6 @@
 // Reading scene files: what each element of the format becomes.
 #include "nacre/spectrum/color.h"
+#include "nacre/text/names.h"
 #include "tests/scene/scene_files.h"
 
 namespace nacre {
@@ -233,18 +234,6 @@ TEST_F(SceneXml, KnowsWhereThingsStand) {
     EXPECT_EQ(child(scene, 0).location.column, 3);
     EXPECT_EQ(child(scene, 0).values[0].location.line, 3);
     EXPECT_EQ(child(scene, 0).values[0].location.column, 4);
-}
-
-TEST(NearestName, FindsPlausibleMisspellings) {
-    const std::vector<std::string> known = {"reflectance", "radiance", "to_world", "fov",
-                                            "sigma_t"};
-    EXPECT_EQ(nearest_name("reflectanse", known), "reflectance");
-    EXPECT_EQ(nearest_name("toWorld", known), "to_world");
-    EXPECT_EQ(nearest_name("fvo", known), "fov");
-    EXPECT_EQ(nearest_name("sigma", known), "sigma_t");
-    EXPECT_EQ(nearest_name("banana", known), "");
-    EXPECT_EQ(suggestion("banana", {"a", "b"}), "; known are: a, b");
-    EXPECT_EQ(suggestion("banana", {}), "");
 }
 
 }  // namespace

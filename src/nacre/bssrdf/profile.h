@@ -2,12 +2,12 @@
 // The radial diffusion profiles by name, in double precision: what scenes, the command line, tables
 // (radial_table.h) and comparisons use. Who knows the model at compile time uses its own header.
 #include <memory>
-#include <span>
 #include <string_view>
 #include <vector>
 
 #include "nacre/bssrdf/medium.h"
-#include "nacre/reflectance/registry.h"
+#include "nacre/catalogue/catalogue.h"
+#include "nacre/catalogue/settings.h"
 
 namespace nacre {
 
@@ -26,10 +26,9 @@ struct ProfileDescription {
     std::vector<std::string_view> errata = {};
     /// Its total depends on the reduced albedo and eta, so that an albedo can be inverted.
     bool invertible = true;
-    /// Makes it of a checked medium and one value for each option: its number, or the position of
-    /// its choice.
+    /// Makes it of a checked medium and the values of its options.
     std::unique_ptr<RadialProfile> (*make)(const ProfileMedium& medium,
-                                           std::span<const double> options) = nullptr;
+                                           const ParameterValues& options) = nullptr;
 };
 
 /// How much of the light that entered a flat, homogeneous half space at a point leaves at distance
@@ -53,14 +52,11 @@ class RadialProfile {
     virtual double sigma_tr() const = 0;
 };
 
-/// All descriptions.
-std::span<const ProfileDescription* const> profiles();
-/// By name, regardless of case, blanks, dashes and underscores; throws InputError with the nearest.
-const ProfileDescription& find_profile(std::string_view name);
+/// All of them.
+const Catalogue<ProfileDescription>& profiles();
 
 /// Options are set as those of reflectance models: parse_settings("moments=fit kappa=off"). Throws
-/// InputError for unknown names and words, options given twice, and numbers out of range, of the
-/// medium as well.
+/// InputError as profiles().find and ParameterValues do, and for a medium out of range.
 std::unique_ptr<RadialProfile> make_profile(std::string_view name, const ProfileMedium& medium,
                                             const Settings& options = {});
 

@@ -85,9 +85,9 @@ const ProfileDescription& quantised_diffusion_profile() {
                      .otherwise = 40.},
                     moments_option()},
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
-            return std::make_unique<QuantisedProfile>(m, int(o[0]),
-                                                      static_cast<MomentModel>(int(o[1])));
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
+            return std::make_unique<QuantisedProfile>(m, o.whole("count"),
+                                                      o.choice<MomentModel>("moments"));
         }};
     return description;
 }
@@ -113,9 +113,10 @@ const ProfileDescription& photon_beam_profile() {
                                       {"on", "exact single scattering as well"}}),
                     moments_option()},
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
-            return std::make_unique<PhotonBeamProfile>(m, o[0] == 0., o[1] == 1.,
-                                                       static_cast<MomentModel>(int(o[2])));
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
+            return std::make_unique<PhotonBeamProfile>(m, o.word("kappa") == "on",
+                                                       o.word("single") == "on",
+                                                       o.choice<MomentModel>("moments"));
         }};
     return description;
 }

@@ -75,9 +75,9 @@ const ProfileDescription& dipole_profile() {
                    "The published fit of Fdr for eta < 1 ends in 0.0636/eta^3; copies with eta^2 "
                    "circulate."},
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
             return std::make_unique<DipoleProfile<Dipole<double>, dipole_profile, true>>(
-                m, static_cast<BoundaryModel>(int(o[0])));
+                m, o.choice<BoundaryModel>("boundary"));
         }};
     return description;
 }
@@ -101,10 +101,10 @@ const ProfileDescription& better_dipole_profile() {
         .errata = {"The factor is alpha'^2; with alpha' the source would count light that was "
                    "scattered once only."},
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
             return std::make_unique<
                 DipoleProfile<BetterDipole<double>, better_dipole_profile, false>>(
-                m, static_cast<MomentModel>(int(o[0])));
+                m, o.choice<MomentModel>("moments"));
         }};
     return description;
 }
@@ -134,9 +134,10 @@ const ProfileDescription& multipole_profile() {
         .errata = {"Without absorption the sum must not be integrated term by term."},
         .invertible = false,
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
-            return std::make_unique<MultipoleProfile>(m, o[0], o[1],
-                                                      static_cast<BoundaryModel>(int(o[2])));
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
+            return std::make_unique<MultipoleProfile>(m, o.number("thickness"),
+                                                      o.number("eta_below"),
+                                                      o.choice<BoundaryModel>("boundary"));
         }};
     return description;
 }

@@ -83,9 +83,8 @@ const ProfileDescription& normalised_profile() {
         .errata = {"The paper holds the cumulative distribution not to be invertible; it is, by "
                    "Cardano's formula."},
         .make = [](const ProfileMedium& m,
-                   std::span<const double> o) -> std::unique_ptr<RadialProfile> {
-            return std::make_unique<NormalisedProfile>(
-                m, static_cast<NormalisedDiffusionFit>(int(o[0])));
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
+            return std::make_unique<NormalisedProfile>(m, o.choice<NormalisedDiffusionFit>("fit"));
         }};
     return description;
 }
@@ -104,8 +103,10 @@ const ProfileDescription& gaussian_sum_profile() {
         .options = {choice_parameter("channel", "which colour band",
                                      {{"red", "the widest"}, {"green", ""}, {"blue", ""}})},
         .invertible = false,
-        .make = [](const ProfileMedium&, std::span<const double> o)
-            -> std::unique_ptr<RadialProfile> { return std::make_unique<SkinProfile>(int(o[0])); }};
+        .make = [](const ProfileMedium&,
+                   const ParameterValues& o) -> std::unique_ptr<RadialProfile> {
+            return std::make_unique<SkinProfile>(o.choice<int>("channel"));
+        }};
     return description;
 }
 

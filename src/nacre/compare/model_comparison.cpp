@@ -110,11 +110,11 @@ const Behaviour& behaviour_of(const AnyModel& model) {
         bool fits = true;
         for (const Setting& s : parse_settings(b.options)) {
             const auto* word = std::get_if<std::string>(&s.value);
-            for (int i : find_parameters(d, s.name)) {
+            for (int i : find_parameters(d.name, d.parameters, s.name)) {
                 const double is = d.parameters[i].kind == ParameterKind::choice ? values.option[i]
                                                                                 : values.scalar[i];
                 const double wanted =
-                    word ? find_choice(d, d.parameters[i], *word) : std::get<double>(s.value);
+                    word ? find_choice(d.name, d.parameters[i], *word) : std::get<double>(s.value);
                 fits = fits && is == wanted;
             }
         }

@@ -21,7 +21,7 @@ TechniqueChoice parse_choice(const std::vector<std::string_view>& words) {
                 fmt::format("'{}' of {} is not of the form name=value", words[i], words[0]));
         const std::string name(words[i].substr(0, equals)), value(words[i].substr(equals + 1));
         if (name == "profile")
-            choice.profile = std::string(find_profile(value).name);
+            choice.profile = std::string(profiles().find(value).name);
         else
             choice.options.emplace_back(name, value);
     }

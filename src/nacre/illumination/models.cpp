@@ -8,7 +8,7 @@
 #include "nacre/illumination/all_models.h"
 #include "nacre/math/error.h"
 #include "nacre/math/lanes_math.h"
-#include "nacre/optics/names.h"
+#include "nacre/text/names.h"
 
 namespace nacre::illumination {
 

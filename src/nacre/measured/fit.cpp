@@ -174,22 +174,7 @@ SettingValue fitted_value(const Unknown& unknown, const double* x) {
     return Vec3f(float(r[0]), float(r[1]), float(r[2]));
 }
 
-std::string value_text(const SettingValue& value) {
-    if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.6g}", *number);
-    if (const auto* word = std::get_if<std::string>(&value)) return *word;
-    if (const auto* rgb = std::get_if<Vec3f>(&value))
-        return fmt::format("{:.6g},{:.6g},{:.6g}", rgb->x, rgb->y, rgb->z);
-    return "(spectrum)";
-}
-
 }  // namespace
-
-std::string settings_text(const Settings& settings) {
-    std::string text;
-    for (const Setting& s : settings)
-        text += fmt::format("{}{}={}", text.empty() ? "" : " ", s.name, value_text(s.value));
-    return text;
-}
 
 ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
                    const FitOptions& options) {
@@ -212,7 +197,8 @@ ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const Targ
         if (snap_to_limits(unknown, x)) at_limit.push_back(unknown.name);
         const SettingValue value = fitted_value(unknown, x);
         // Lafortune's cx and cy move together, but no name means both.
-        if (find_parameters(model, unknown.name).size() == unknown.parameters.size())
+        if (find_parameters(model.name, model.parameters, unknown.name).size() ==
+            unknown.parameters.size())
             settings.push_back({unknown.name, value});
         else
             for (int i : unknown.parameters)

@@ -40,7 +40,4 @@ struct ModelFit {
 ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
                    const FitOptions& options = {});
 
-/// Settings as text that parse_settings reads, six significant digits.
-std::string settings_text(const Settings& settings);
-
 }  // namespace nacre

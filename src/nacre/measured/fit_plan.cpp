@@ -36,7 +36,7 @@ std::vector<Unknown> plan_unknowns(const ModelDescription& model, const Settings
                                    bool isotropic) {
     std::vector<bool> fixed(model.parameters.size());
     for (const Setting& s : given)
-        for (int i : find_parameters(model, s.name)) fixed[i] = true;
+        for (int i : find_parameters(model.name, model.parameters, s.name)) fixed[i] = true;
     std::vector<Unknown> unknowns;
     for (std::size_t i = 0; i < model.parameters.size(); ++i) {
         const Parameter& p = model.parameters[i];
@@ -57,7 +57,8 @@ std::vector<Unknown> plan_unknowns(const ModelDescription& model, const Settings
             }
             // The name must set no more than what the fit may vary.
             bool free = true;
-            for (int k : find_parameters(model, name)) free = free && !fixed[k];
+            for (int k : find_parameters(model.name, model.parameters, name))
+                free = free && !fixed[k];
             if (free) u.name = name;
         }
         unknowns.push_back(std::move(u));

@@ -1,6 +1,6 @@
 #include "nacre/math/error.h"
 #include "nacre/optics/dispersion.h"
-#include "nacre/optics/names.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "nacre/math/error.h"
-#include "nacre/optics/names.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 

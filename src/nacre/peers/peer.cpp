@@ -3,9 +3,9 @@
 #include <cstdlib>
 
 #include "nacre/math/error.h"
-#include "nacre/optics/names.h"
 #include "nacre/peers/job.h"
 #include "nacre/peers/process.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {

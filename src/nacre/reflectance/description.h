@@ -1,42 +1,16 @@
 #pragma once
 // What a model says of itself: the manual page from which the scene reader, the command line, the
 // checks and the documentation are driven. Plain data, given once, in the model's own file.
-#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "nacre/catalogue/parameter.h"
 
 namespace nacre {
 
-struct Setting;  // registry.h
-
-enum class ParameterKind {
-    spectrum,    ///< a number a wavelength (colour); member of type P
-    scalar,      ///< one number for all wavelengths (shape); member of type S
-    choice,      ///< one of named options; member of an enum type, in the order of `choices`
-    integer,     ///< a whole number; member of type int
-    wavelength,  ///< the wavelength itself, nm; 0, the default, is that of the light; type P
-};
-
-struct Choice {
-    std::string_view name;
-    std::string_view meaning;
-    std::vector<std::string_view> aliases = {};  ///< words of other renderers and of the vectors
-};
-
-struct Parameter {
-    std::string_view name;
-    std::string_view meaning;
-    ParameterKind kind = ParameterKind::scalar;
-    std::string_view unit = "";  ///< empty: none
-    double low = 0., high = 1.;  ///< the range, both ends included unless `above_low`
-    bool above_low = false;      ///< `low` itself is not allowed
-    double otherwise = 0.;       ///< default; of a choice, its position
-    std::vector<Choice> choices = {};
-    /// Other names that mean this parameter: those of other renderers, of the vectors. An alias
-    /// that several parameters list sets all of them.
-    std::vector<std::string_view> aliases = {};
-};
+struct Setting;  // catalogue/settings.h
 
 /// A sum of spectra that must not exceed 1, lest energy appear from nowhere.
 struct SumBound {
@@ -119,8 +93,6 @@ std::string condition_text(const Behaviour& behaviour);
 /// Options and conditions, "variant=full, for sigma up to 0.3"; empty: always.
 std::string claim_text(const Behaviour& behaviour);
 
-inline constexpr double infinite = std::numeric_limits<double>::infinity();
-
 // The parameters that many models share.
 
 /// Diffuse albedo.
@@ -138,17 +110,6 @@ inline Parameter specular_parameter(double otherwise) {
             .kind = ParameterKind::spectrum,
             .otherwise = otherwise,
             .aliases = {"specular_reflectance", "specularReflectance"}};
-}
-inline Parameter choice_parameter(std::string_view name, std::string_view meaning,
-                                  std::vector<Choice> choices, int otherwise = 0,
-                                  std::vector<std::string_view> aliases = {}) {
-    return {.name = name,
-            .meaning = meaning,
-            .kind = ParameterKind::choice,
-            .high = double(choices.size()) - 1.,
-            .otherwise = double(otherwise),
-            .choices = std::move(choices),
-            .aliases = std::move(aliases)};
 }
 
 }  // namespace nacre

@@ -34,7 +34,7 @@ double drawn_choice(const ModelDescription& model, const Parameter& p, const Con
         return std::min(std::size_t(random.next() * float(n)), n - 1);
     };
     if (condition && !condition->choices.empty())
-        return find_choice(model, p, condition->choices[any_of(condition->choices.size())]);
+        return find_choice(model.name, p, condition->choices[any_of(condition->choices.size())]);
     return double(any_of(p.choices.size()));
 }
 
@@ -98,7 +98,8 @@ NamedNumbers draw_parameters(const ModelDescription& model, const Behaviour& beh
 std::string settings_text(const ModelDescription& model, const NamedNumbers& numbers) {
     std::string text;
     for (const auto& [name, value] : numbers) {
-        const Parameter& p = model.parameters[find_parameters(model, name).front()];
+        const Parameter& p =
+            model.parameters[find_parameters(model.name, model.parameters, name).front()];
         if (!text.empty()) text += ' ';
         text += p.kind == ParameterKind::choice
                     ? fmt::format("{}={}", name, p.choices[std::size_t(value)].name)

@@ -1,53 +1,27 @@
 #pragma once
 // Models by name: what the scene reader, the command line, the checks and the documentation use.
 #include <functional>
-#include <memory>
-#include <string>
-#include <utility>
-#include <variant>
 
+#include "nacre/catalogue/catalogue.h"
+#include "nacre/catalogue/settings.h"
 #include "nacre/reflectance/evaluator.h"
 #include "nacre/spectrum/spectrum.h"
 
 namespace nacre {
 
 /// The descriptions of all models, in the order of models.h.
-const std::vector<const ModelDescription*>& models();
-/// The evaluator of a model; throws InputError with the nearest name if there is none.
+const Catalogue<ModelDescription>& models();
+/// The evaluator of a model; throws InputError as models().find does.
 const Evaluator& find_evaluator(std::string_view name);
-
-/// What a parameter is set to: a number, a word (of a choice), linear RGB, or a spectrum.
-using SettingValue = std::variant<double, std::string, Vec3f, SpectrumPtr>;
-struct Setting {
-    std::string name;
-    SettingValue value;
-};
-using Settings = std::vector<Setting>;
-
-/// Settings from text: "variant=duer alpha=0.2 ks=0.1,0.3,0.2"; three numbers are a linear RGB
-/// colour. Throws InputError if something is not name=value.
-Settings parse_settings(std::string_view text);
-/// One of them, "alpha=0.2".
-Setting parse_setting(std::string_view text);
 
 /// Whether sums such as kd + ks <= 1 are enforced, or only the range of each parameter.
 enum class Bounds { enforced, ranges_only };
 
-/// Positions of the parameters that `name` means: itself, or all that have it as an alias. Throws
-/// InputError with the nearest name if there is none.
-std::vector<int> find_parameters(const ModelDescription& model, std::string_view name);
-/// Position of a choice by its name or alias; throws InputError.
-int find_choice(const ModelDescription& model, const Parameter& parameter, std::string_view word);
-/// Throws InputError unless the number is within the range of the parameter (NaN is not); whole for
-/// integers.
-void check_range(const ModelDescription& model, const Parameter& parameter, double value);
 /// Throws InputError if a sum exceeds 1.
 void check_sum(const ModelDescription& model, const SumBound& bound, double sum);
 /// The largest that f becomes in RGB bands and, if asked, over the visible range in steps of 5 nm.
 /// Who wrote RGB means bands: the ends of uplifted spectra are nobody's choice.
 float largest_over_wavelengths(const std::function<float(const Wavelengths&)>& f, bool spectral);
-/// How messages and manual pages write a range: "(0, 10]".
-std::string range_text(const Parameter& parameter);
 
 /// What models that depend on the wavelength see where the lanes are red, green and blue: the
 /// dominant wavelengths of the sRGB primaries under D65 (611.4, 549.1, 464.2 nm; CIE 1931).
@@ -56,8 +30,8 @@ Spectral band_wavelengths();
 /// A model with its parameters set.
 class AnyModel {
   public:
-    /// Parameters that are not given keep their defaults. Throws InputError for an unknown name or
-    /// word, one given twice, a value out of range, and sums that exceed their bound.
+    /// Parameters that are not given keep their defaults. Throws InputError as ParameterValues does,
+    /// and for sums that exceed their bound.
     AnyModel(const Evaluator& evaluator, const Settings& settings,
              Bounds bounds = Bounds::enforced);
 
@@ -103,12 +77,8 @@ class AnyModel {
     static Wavelengths at(float nm);
     void check_bounds() const;
 
-    struct Value {
-        double number = 0.;
-        SpectrumPtr spectrum;  ///< instead of the number, if given
-    };
     const Evaluator* evaluator_;
-    std::vector<Value> values_;
+    ParameterValues values_;
 };
 
 /// A model by name. Throws InputError as find_evaluator and AnyModel do.

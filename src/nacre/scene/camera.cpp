@@ -6,6 +6,7 @@
 #include "nacre/math/error.h"
 #include "nacre/math/warp.h"
 #include "nacre/scene/build.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -222,7 +223,7 @@ CameraPtr make_camera(const SceneNode& node, float aspect, BuildContext&) {
         }
         known.emplace_back(name);
     }
-    node.fail(fmt::format("unknown sensor type '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("sensor type", node.type, known));
 }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 
 #include "nacre/scene/legacy_settings.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -39,8 +40,7 @@ FilterSettings read_filter(const SceneNode& node) {
         filter.b = static_cast<float>(node.get_float("A", 1.0 / 3.0));
         filter.c = static_cast<float>(node.get_float("B", 1.0 / 3.0));
     } else {
-        node.fail(
-            fmt::format("unknown rfilter type '{}'{}", node.type, suggestion(node.type, known)));
+        node.fail(unknown_name("rfilter type", node.type, known));
     }
     node.check_all_used();
     return filter;
@@ -67,8 +67,7 @@ IntegratorSettings read_integrator(const SceneNode& node) {
     settings.type = node.type == "volpathmis" ? "volpath" : node.type;
     if (settings.type != "path" && settings.type != "volpath" && settings.type != "ray" &&
         settings.type != "legacy")
-        node.fail(
-            fmt::format("unknown integrator type '{}'{}", node.type, suggestion(node.type, known)));
+        node.fail(unknown_name("integrator type", node.type, known));
     settings.hide_emitters = node.get_bool("hide_emitters", false);
     settings.max_depth = get_count(node, "max_depth", -1, -1, unlimited);
     settings.rr_depth = get_count(node, "rr_depth", 5, 1, unlimited);
@@ -82,9 +81,7 @@ IntegratorSettings read_integrator(const SceneNode& node) {
 }
 
 FilmSettings read_film(const SceneNode& node, BuildContext& context) {
-    if (node.type != "hdrfilm")
-        node.fail(
-            fmt::format("unknown film type '{}'{}", node.type, suggestion(node.type, {"hdrfilm"})));
+    if (node.type != "hdrfilm") node.fail(unknown_name("film type", node.type, {"hdrfilm"}));
     FilmSettings film;
     constexpr int largest = 65536;  // a side; more would not fit the addresses of a pixel
     film.width = get_count(node, "width", 768, 1, largest);
@@ -122,8 +119,7 @@ FilmSettings read_film(const SceneNode& node, BuildContext& context) {
 SamplerSettings read_sampler(const SceneNode& node) {
     const std::vector<std::string> known = {"independent", "stratified", "sobol"};
     if (std::find(known.begin(), known.end(), node.type) == known.end())
-        node.fail(
-            fmt::format("unknown sampler type '{}'{}", node.type, suggestion(node.type, known)));
+        node.fail(unknown_name("sampler type", node.type, known));
     SamplerSettings sampler;
     sampler.type = node.type;
     sampler.samples = get_count(node, "sample_count", 4, 1, unlimited);

@@ -6,6 +6,7 @@
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -135,7 +136,7 @@ AddGeometry geometry_of(const SceneNode& node) {
     if (node.type == "shapegroup" || node.type == "instance")
         node.fail(fmt::format("{}: nacre has no instances; write every shape by itself",
                               node.describe()));
-    node.fail(fmt::format("unknown shape type '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("shape type", node.type, known));
 }
 
 /// What is missing in a scene file: Mitsuba's default, black if the surface shines.

@@ -10,11 +10,11 @@
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/layers/skin.h"
 #include "nacre/optics/media.h"
-#include "nacre/optics/names.h"
 #include "nacre/scene/gltf/shapes.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
 #include "nacre/scene/xml/write_nodes.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {

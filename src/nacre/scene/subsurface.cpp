@@ -10,6 +10,7 @@
 #include "nacre/optics/media.h"
 #include "nacre/scene/scene_builder.h"
 #include "nacre/scene/xml/write_nodes.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -102,8 +103,7 @@ void set_option(SubsurfaceSettings& settings, std::string_view name, std::string
         set_number(settings, name, value);
         return;
     }
-    throw InputError(
-        fmt::format("unknown option '{}'{}", name, suggestion(std::string(name), known)));
+    throw InputError(unknown_name("option", name, known));
 }
 
 void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_material, Scene& scene,

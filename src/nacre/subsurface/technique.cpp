@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include "nacre/math/error.h"
-#include "nacre/optics/names.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/surface_sampling.h"
 #include "nacre/render/volume_path_tracer.h"
 #include "nacre/subsurface/rough_half_space.h"
+#include "nacre/text/names.h"
 #include "nacre/text/split_words.h"
 
 namespace nacre {
@@ -265,7 +265,7 @@ std::vector<TechniqueChoice> variants_of(const TechniqueDescription& technique) 
 void check_choice(const TechniqueChoice& choice) {
     const TechniqueDescription& technique = find_technique(choice.technique);
     if (!choice.profile.empty()) {
-        find_profile(choice.profile);
+        profiles().find(choice.profile);
         if (technique.profiles.empty())
             throw InputError(fmt::format("technique '{}' has no profile: leave out '{}'",
                                          technique.name, choice.profile));

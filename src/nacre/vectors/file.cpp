@@ -30,7 +30,8 @@ GroupModel model_of_group(std::string_view name) {
 AnyModel model_of_vector(const GroupModel& who, const nlohmann::json& parameters) {
     Settings settings = parse_settings(who.group->settings);
     const auto meant = [&](const std::string& name) {
-        return find_parameters(who.evaluator->description(), name);
+        const ModelDescription& model = who.evaluator->description();
+        return find_parameters(model.name, model.parameters, name);
     };
     std::vector<int> fixed;
     for (const Setting& s : settings)

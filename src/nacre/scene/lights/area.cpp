@@ -3,6 +3,7 @@
 
 #include "nacre/scene/lights/rectangle.h"
 #include "nacre/scene/lights/types.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 

@@ -1,6 +1,7 @@
 #include "nacre/scene/light.h"
 
 #include "nacre/scene/lights/types.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -31,7 +32,7 @@ LightPtr make_light(const SceneNode& node, BuildContext& context) {
         }
         known.emplace_back(name);
     }
-    node.fail(fmt::format("unknown emitter type '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("emitter type", node.type, known));
 }
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 
 #include "nacre/reflectance/registry.h"
 #include "nacre/scene/materials/types.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -102,8 +103,7 @@ MaterialPtr make_material(const SceneNode& node, BuildContext& context) {
         std::any_of(models().begin(), models().end(),
                     [&](const ModelDescription* model) { return model->name == node.type; });
     if (type == std::end(types) && !is_model)
-        node.fail(fmt::format("unknown bsdf type '{}'{}", node.type,
-                              suggestion(node.type, type_names())));
+        node.fail(unknown_name("bsdf type", node.type, type_names()));
     MaterialPtr material =
         is_model ? make_reflectance_model(node, context) : type->build(node, context);
     node.check_all_used();

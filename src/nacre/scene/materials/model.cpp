@@ -139,20 +139,20 @@ class ModelReader {
                 int option = int(p.otherwise);
                 if (node_.has(name)) {
                     const std::string word = node_.get_string(name);
-                    option = in_file([&] { return find_choice(model_, p, word); });
+                    option = in_file([&] { return find_choice(model_.name, p, word); });
                 }
                 constants_.option[i] = option;
                 return;
             }
             case ParameterKind::integer: {
                 const double value = double(node_.get_int(name, std::int64_t(p.otherwise)));
-                in_file([&] { check_range(model_, p, value); });
+                in_file([&] { check_range(model_.name, p, value); });
                 constants_.option[i] = int(value);
                 return;
             }
             case ParameterKind::wavelength: {
                 const double nm = node_.get_float(name, p.otherwise);
-                in_file([&] { check_range(model_, p, nm); });
+                in_file([&] { check_range(model_.name, p, nm); });
                 constants_.set_color(i, Spectral(float(nm)));
                 if (nm == 0.) bindings_.push_back({i, p.kind, nullptr});
                 return;
@@ -160,7 +160,7 @@ class ModelReader {
             case ParameterKind::scalar:
                 if (!node_.child(name, "texture")) {
                     const double value = node_.get_float(name, p.otherwise);
-                    in_file([&] { check_range(model_, p, value); });
+                    in_file([&] { check_range(model_.name, p, value); });
                     constants_.set_scalar(i, float(value));
                     return;
                 }
@@ -174,8 +174,9 @@ class ModelReader {
                 ? get_reflectance(node_, name, float(p.otherwise), context_)
                 : get_texture(node_, name, ColorRole::unbounded, float(p.otherwise), context_);
         const double max = texture->max();
-        in_file(
-            [&] { check_range(model_, p, max <= p.high * 1.00001 ? std::min(max, p.high) : max); });
+        in_file([&] {
+            check_range(model_.name, p, max <= p.high * 1.00001 ? std::min(max, p.high) : max);
+        });
         // The lowest number of an open range that single precision evaluates safely.
         const float low = p.above_low ? std::max(float(p.low) + 1e-4f, 1e-4f) : float(p.low);
         bindings_.push_back({i, p.kind, std::move(texture), low, float(p.high)});
@@ -186,7 +187,7 @@ class ModelReader {
         bool varies = false;
         std::string names;
         for (std::string_view name : bound.parameters) {
-            const int position = find_parameters(model_, name).front();
+            const int position = find_parameters(model_.name, model_.parameters, name).front();
             for (const Binding& b : bindings_)
                 if (b.position == position) textures.push_back(b.texture.get());
             varies = varies ||

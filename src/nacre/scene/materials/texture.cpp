@@ -2,6 +2,7 @@
 #include "nacre/scene/texture.h"
 
 #include "nacre/scene/materials/texture_types.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -32,9 +33,7 @@ TexturePtr make_texture(const SceneNode& node, ColorRole role, BuildContext& con
         return known->second;
     const auto type = std::find_if(std::begin(types), std::end(types),
                                    [&](const TextureType& t) { return t.name == node.type; });
-    if (type == std::end(types))
-        node.fail(fmt::format("unknown texture type '{}'{}", node.type,
-                              suggestion(node.type, type_names())));
+    if (type == std::end(types)) node.fail(unknown_name("texture type", node.type, type_names()));
     TexturePtr texture = type->build(node, role, context);
     node.check_all_used();
     context.textures.emplace(key, texture);

@@ -1,6 +1,7 @@
 #include "nacre/scene/medium.h"
 
 #include "nacre/scene/media/types.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -80,7 +81,7 @@ MediumPtr make_medium(const SceneNode& node, BuildContext& context) {
         if (name == node.type) return context.media[&node] = build_medium(node, set, context);
         known.emplace_back(name);
     }
-    node.fail(fmt::format("unknown medium type '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("medium type", node.type, known));
 }
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 #include "nacre/optics/phase.h"
 
 #include "nacre/scene/build.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -59,8 +60,7 @@ PhaseFunction make_phase(const SceneNode& node) {
         }
         known.emplace_back(name);
     }
-    node.fail(
-        fmt::format("unknown phase function '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("phase function", node.type, known));
 }
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #include "nacre/scene/volume.h"
 
 #include "nacre/scene/media/volume_grid.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -67,7 +68,7 @@ VolumePtr make_volume(const SceneNode& node, ColorRole role, BuildContext& conte
         }
         known.emplace_back(name);
     }
-    node.fail(fmt::format("unknown volume type '{}'{}", node.type, suggestion(node.type, known)));
+    node.fail(unknown_name("volume type", node.type, known));
 }
 
 }  // namespace nacre

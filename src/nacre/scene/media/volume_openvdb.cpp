@@ -5,6 +5,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/scene/media/volume_grid.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 

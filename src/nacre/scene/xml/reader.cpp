@@ -8,6 +8,7 @@
 #include "nacre/scene/load.h"
 #include "nacre/scene/xml/find_file.h"
 #include "nacre/scene/xml/values.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -173,8 +174,7 @@ class XmlReader {
             const auto scale = static_cast<float>(node.get_float("scale", 1.0));
             color.rgb = {scale, scale, scale};  // the white of linear RGB is D65
         } else {
-            node.fail(fmt::format("unknown spectrum type '{}'{}", node.type,
-                                  suggestion(node.type, {"uniform", "blackbody", "d65"})));
+            node.fail(unknown_name("spectrum type", node.type, {"uniform", "blackbody", "d65"}));
         }
         node.check_all_used();
         return {element.get("name"), "spectrum", color, element.location};

@@ -107,13 +107,4 @@ class SceneNode {
     mutable std::map<std::string, ColorValue, std::less<>> constants_;  ///< floats as colours
 };
 
-/// "an integer", "a float": the word with its article.
-std::string with_article(std::string_view noun);
-/// The nearest of `known` to `word` by edit distance, if near enough to be a plausible misspelling;
-/// else empty.
-std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
-/// "; did you mean 'x'?" or, if nothing is near, "; known are: a, b, c" (empty if nothing is
-/// known).
-std::string suggestion(std::string_view word, const std::vector<std::string>& known);
-
 }  // namespace nacre

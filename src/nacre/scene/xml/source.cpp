@@ -1,4 +1,5 @@
 #include "nacre/scene/xml/source.h"
+#include "nacre/text/names.h"
 
 #include <fmt/format.h>
 

@@ -14,6 +14,7 @@
 #include "nacre/scene/xml/find_file.h"
 #include "nacre/spectrum/color.h"
 #include "nacre/text/lines.h"
+#include "nacre/text/names.h"
 #include "nacre/text/number.h"
 #include "nacre/text/split_words.h"
 
