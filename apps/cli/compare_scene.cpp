@@ -10,7 +10,7 @@
 #include "nacre/math/error.h"
 #include "nacre/report/experiment.h"
 #include "nacre/report/report.h"
-#include "nacre/subsurface/missing_light.h"
+#include "nacre/techniques/missing_light.h"
 #include "nacre/text/split_words.h"
 
 namespace nacre::cli {
@@ -67,7 +67,7 @@ void print_table(const Experiment& e) {
 ExperimentOptions experiment_options(const CompareOptions& o) {
     ExperimentOptions options;
     options.settings = parse_techniques(o.techniques, parse_counts("--spp", o.samples));
-    options.reference.technique = {std::string(find_technique(o.reference).name)};
+    options.reference.technique = {std::string(techniques().find(o.reference).name)};
     options.reference.error = parse_share("--reference-error", o.reference_error);
     options.reference.store = reference_store(o);
     options.reference.fresh = o.fresh;
@@ -91,7 +91,7 @@ ExperimentOptions experiment_options(const CompareOptions& o) {
 int compare_scene(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
     // What is wrong with the command line is said before anything is read.
     ExperimentOptions options = experiment_options(o);
-    Scene scene = load(o.input, app);
+    const Scene scene = load(o.input, app);
     options.peer_source = peer_source(o.input, options.settings.front().samples);
     for (const std::string& w : scene.warnings) say("nacre: warning: {}\n", w);
     // Every row has its own integrator; the one that may lack light is the simulation.

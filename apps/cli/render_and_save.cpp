@@ -10,8 +10,7 @@
 #include "apps/cli/streams.h"
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
-#include "nacre/subsurface/missing_light.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/techniques/missing_light.h"
 
 namespace nacre::cli {
 namespace {
@@ -26,7 +25,8 @@ std::pair<std::uint32_t, std::uint32_t> sample_range(const Film& film) {
     return {least, most};
 }
 
-void print_json(const RenderResult& r, const Scene& scene, const std::filesystem::path& file) {
+void print_json(const RenderResult& r, const Scene& scene,
+                const std::vector<std::string>& warnings, const std::filesystem::path& file) {
     Vec3d mean;
     for (int y = 0; y < r.film.height(); ++y)
         for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));
@@ -36,12 +36,12 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
                                 {"complete", r.complete},
                                 {"width", r.film.width()},
                                 {"height", r.film.height()},
-                                {"samples", scene.sampler.samples},
+                                {"samples", r.sampler.samples},
                                 {"fewest_samples", least},
                                 {"most_samples", most},
-                                {"seed", scene.sampler.seed},
+                                {"seed", r.sampler.seed},
                                 {"mode", scene.mode == ColorMode::spectral ? "spectral" : "rgb"},
-                                {"integrator", scene.integrator.type},
+                                {"integrator", r.integrator},
                                 {"seconds", r.seconds},
                                 {"cpu_seconds", r.cpu_seconds},
                                 {"precompute_seconds", r.precompute_seconds},
@@ -50,7 +50,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::filesystem
                                 {"scatterings", r.counts.scatterings},
                                 {"invalid_samples", r.film.invalid_count()},
                                 {"mean", {mean.x, mean.y, mean.z}},
-                                {"warnings", warnings_of(scene)}};
+                                {"warnings", warnings}};
     for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
     fmt::print("{}\n", json.dump(2));
 }
@@ -73,8 +73,10 @@ void refuse_too_large(const FilmSettings& film) {
 
 }  // namespace
 
-int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation) {
-    for (const std::string& w : warnings_of(scene)) say("nacre: warning: {}\n", w);
+int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOptions& options,
+                    const Invocation& invocation) {
+    const std::vector<std::string> warnings = warnings_of(scene, plan);
+    for (const std::string& w : warnings) say("nacre: warning: {}\n", w);
     refuse_too_large(scene.film);
     const std::atomic<bool>& stop = interrupt_flag();
     const RenderResult result = [&] {
@@ -84,7 +86,7 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
         o.timeout_s = options.timeout_s;
         o.stop = &stop;
         o.progress = [&](const RenderProgress& p) { bar.show(p); };
-        return render_with(scene, make_technique_integrator, o);
+        return render(scene, plan, FrameSettings::of(scene), o);
     }();
 
     const std::string invalid = describe_invalid(result.film);
@@ -118,7 +120,7 @@ int render_and_save(const Scene& scene, const SaveOptions& options, const Invoca
     if (!options.quiet)
         for (const Statistic& s : result.statistics)
             say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
-    if (options.json) print_json(result, scene, file);
+    if (options.json) print_json(result, scene, warnings, file);
     return stopped ? interrupted : success;
 }
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "apps/cli/verb.h"
-#include "nacre/scene/scene.h"
+#include "nacre/techniques/techniques.h"
 
 namespace nacre::cli {
 
@@ -20,6 +20,7 @@ struct SaveOptions {
 /// NAME.partial.exr (NAME.partial-2.exr if that exists); `failure` after a timeout before the first
 /// sample. Throws InputError for a picture that the memory does not hold. Throws RunError for
 /// invalid samples if `strict`, and then writes nothing.
-int render_and_save(const Scene& scene, const SaveOptions& options, const Invocation& invocation);
+int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOptions& options,
+                    const Invocation& invocation);
 
 }  // namespace nacre::cli

@@ -7,15 +7,6 @@ namespace nacre::cli {
 
 using nlohmann::ordered_json;
 
-namespace {
-
-std::string option_range(const SubsurfaceOption& o) {
-    if (!o.words.empty()) return std::string(o.words);
-    return fmt::format("{}{:g} to {:g}", o.whole ? "a whole number, " : "", o.low, o.high);
-}
-
-}  // namespace
-
 std::string profile_page(const ProfileDescription& p) {
     std::string page = fmt::format("{}: {}\n\n", p.name, p.title);
     page += wrapped("  by         ", fmt::format("{}, {}", p.authors, p.year));
@@ -55,22 +46,14 @@ std::string technique_page(const TechniqueDescription& t) {
     page += wrapped("  paper       ", t.paper);
     page += wrapped("  how         ", t.how);
     page += wrapped("  precomputes ", t.precomputes.empty() ? "nothing" : t.precomputes);
-    page += wrapped("  may change  ", t.may_change);
-    page += wrapped("  profiles    ", t.profiles.empty() ? "needs none" : t.profiles);
-    if (!t.make) return page;  // a complete simulation has the options of its integrator
+    page += wrapped("  may change  ", t.keeps.text());
+    if (t.parameters.empty()) return page;  // a complete simulation has its integrator's options
     page += fmt::format("\n  options (nacre render --technique {} --set)\n", t.name);
-    for (const SubsurfaceOption& o : subsurface_options())
-        page += wrapped(fmt::format("      {:<18} ", o.name),
-                        fmt::format("{} ({})", o.meaning, option_range(o)));
+    for (const Parameter& p : t.parameters) page += parameter_text(p);
     return page;
 }
 
 ordered_json technique_json(const TechniqueDescription& t) {
-    ordered_json options = ordered_json::array();
-    if (t.make)
-        for (const SubsurfaceOption& o : subsurface_options())
-            options.push_back(
-                {{"name", o.name}, {"meaning", o.meaning}, {"range", option_range(o)}});
     return {{"name", t.name},
             {"kind", "technique"},
             {"title", t.title},
@@ -79,9 +62,8 @@ ordered_json technique_json(const TechniqueDescription& t) {
             {"paper", t.paper},
             {"how", t.how},
             {"precomputes", t.precomputes},
-            {"may_change", t.may_change},
-            {"profiles", t.profiles},
-            {"options", std::move(options)}};
+            {"may_change", t.keeps.text()},
+            {"options", parameters_json(t.parameters)}};
 }
 
 }  // namespace nacre::cli

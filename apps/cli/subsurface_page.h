@@ -5,7 +5,7 @@
 #include <string>
 
 #include "nacre/bssrdf/profile.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/technique/technique.h"
 
 namespace nacre::cli {
 

@@ -28,7 +28,7 @@ int run(const Options& o, const Invocation& invocation) {
     save.threads = o.threads;
     save.timeout_s = o.timeout;
     save.quiet = o.quiet;
-    const int code = render_and_save(scene, save, invocation);
+    const int code = render_and_save(scene, plan_of(scene), save, invocation);
     if (code == success) fmt::print("{}\n", std::filesystem::absolute(save.output).string());
     return code;
 }

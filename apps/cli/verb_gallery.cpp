@@ -11,8 +11,7 @@
 #include "nacre/math/error.h"
 #include "nacre/render/output.h"
 #include "nacre/scene/load.h"
-#include "nacre/subsurface/missing_light.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/techniques/missing_light.h"
 #include "nacre/text/names.h"
 #include "nacre/text/whole_file.h"
 
@@ -144,13 +143,14 @@ Image compose(const std::vector<Image>& tiles) {
 /// Empty if Ctrl-C came before the picture was complete.
 std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
     const Scene scene = load(file, o);
-    for (const std::string& w : warnings_of(scene)) say("nacre: warning: {}\n", w);
+    const RenderPlan plan = plan_of(scene);
+    for (const std::string& w : warnings_of(scene, plan)) say("nacre: warning: {}\n", w);
     ProgressBar bar(o.quiet);
     RenderOptions options;
     options.threads = o.threads;
     options.stop = &interrupt_flag();
     options.progress = [&](const RenderProgress& p) { bar.show(p); };
-    const RenderResult result = render_with(scene, make_technique_integrator, options);
+    const RenderResult result = render(scene, plan, FrameSettings::of(scene), options);
     if (!result.complete) return {};
     return render_image(result, scene,
                         {invocation.command_line, version, file.filename().string()});

@@ -9,7 +9,7 @@
 #include "nacre/image/image.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/load.h"
-#include "nacre/subsurface/missing_light.h"
+#include "nacre/techniques/missing_light.h"
 
 namespace nacre::cli {
 namespace {
@@ -111,7 +111,7 @@ ordered_json describe_scene(const std::filesystem::path& file) {
             {"shapes", shapes},
             {"lights", scene.lights.size()},
             {"media", scene.media.size()},
-            {"warnings", warnings_of(scene)}};
+            {"warnings", warnings_of(scene, plan_of(scene))}};
 }
 
 /// "key: value" lines; what is nested is indented.

@@ -14,6 +14,7 @@
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/integrator.h"
 #include "nacre/scene/build.h"
+#include "nacre/techniques/techniques.h"
 #include "nacre/text/names.h"
 
 namespace nacre::cli {
@@ -100,8 +101,8 @@ int list(bool json) {
         for (const illumination::Description* m : illumination::descriptions())
             r["illumination"].push_back(illumination_json(*m));
         for (const ProfileDescription* p : profiles()) r["profile"].push_back(profile_json(*p));
-        for (const TechniqueDescription& t : techniques())
-            r["technique"].push_back(technique_json(t));
+        for (const TechniqueDescription* t : techniques())
+            r["technique"].push_back(technique_json(*t));
         for (const MeasuredMedium& m : measured_media()) r["medium"].push_back(to_json(m));
         r["spectral_medium"].push_back(skin_json());
         fmt::print("{}\n", r.dump(2));
@@ -124,7 +125,7 @@ int list(bool json) {
     fmt::print("\ndiffusion profiles (nacre profile, <subsurface type=...>)\n");
     for (const ProfileDescription* p : profiles()) line(*p);
     fmt::print("\ntechniques for translucent objects (nacre render --technique)\n");
-    for (const TechniqueDescription& t : techniques()) line(t);
+    for (const TechniqueDescription* t : techniques()) line(*t);
     fmt::print("\nmeasured media (--material), mm^-1 in red, green, blue\n");
     fmt::print("  {:<24} {:<26} {:<26} {}\n", "name", "reduced scattering", "absorption", "index");
     const auto triple = [](const Vec3f& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
@@ -193,8 +194,8 @@ int print_page(bool json, const ordered_json& as_json, const std::string& page) 
 int show(const std::string& name, bool json) {
     Finder finder(name);
     // Before the integrators, of which one is a technique as well.
-    for (const TechniqueDescription& t : techniques())
-        if (finder.is(t.name)) return print_page(json, technique_json(t), technique_page(t));
+    for (const TechniqueDescription* t : techniques())
+        if (finder.is(t->name)) return print_page(json, technique_json(*t), technique_page(*t));
     for (const ProfileDescription* p : profiles())
         if (finder.is(p->name)) return print_page(json, profile_json(*p), profile_page(*p));
     for (const auto& [kind, names] : named_models())

@@ -7,7 +7,7 @@
 #include "apps/cli/scene_input.h"
 #include "nacre/image/image.h"
 #include "nacre/math/error.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/techniques/techniques.h"
 
 namespace nacre::cli {
 namespace {
@@ -40,25 +40,26 @@ void set_crop(FilmSettings& film, const std::string& text) {
     }
 }
 
-/// --technique, --profile and --set.
-void set_technique(Scene& scene, const Options& o, const CLI::App& app) {
+/// By the scene's own techniques, or --technique, --profile and --set.
+RenderPlan plan(const Scene& scene, const Options& o, const CLI::App& app) {
     if (o.technique.empty()) {
         for (const char* option : {"--profile", "--set"})
             if (app.count(option))
                 throw InputError(
                     fmt::format("{} belongs to --technique, which is missing", option));
-        return;
+        return plan_of(scene);
     }
     if (!o.integrator.empty())
         throw InputError("give either --technique or --integrator: the one chooses the other");
-    TechniqueChoice choice{o.technique, o.profile};
+    TechniqueChoice choice{o.technique};
+    if (!o.profile.empty()) choice.options.emplace_back("profile", o.profile);
     for (const std::string& text : o.set) {
         const std::size_t equals = text.find('=');
         if (equals == 0 || equals == text.npos)
             throw InputError(fmt::format("--set: '{}' is not of the form name=value", text));
         choice.options.emplace_back(text.substr(0, equals), text.substr(equals + 1));
     }
-    choose_technique(scene, choice);
+    return plan_of(scene, choice);
 }
 
 int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
@@ -77,7 +78,6 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     if (o.spp) scene.sampler.samples = o.spp;
     if (app.count("--seed")) scene.sampler.seed = o.seed;
     if (!o.integrator.empty()) scene.integrator.type = o.integrator;
-    set_technique(scene, o, app);
     if (o.no_distance_grid) scene.integrator.distance_grid = false;
     if (o.no_guided_exits) scene.integrator.guided_exits = false;
     if (o.variance) scene.integrator.moment = true;
@@ -88,7 +88,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     save.strict = o.strict;
     save.quiet = o.quiet;
     save.json = o.json;
-    return render_and_save(scene, save, invocation);
+    return render_and_save(scene, plan(scene, o, app), save, invocation);
 }
 
 }  // namespace
@@ -107,10 +107,8 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
     add_timeout(app, o->timeout);
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
-    std::vector<std::string_view> names;
-    for (const TechniqueDescription& t : techniques()) names.push_back(t.name);
     app.add_option("--technique", o->technique,
-                   fmt::format("how translucent shapes are rendered: {}", fmt::join(names, ", ")));
+                   fmt::format("how translucent shapes are rendered: {}", fmt::join(techniques().names(), ", ")));
     app.add_option("--profile", o->profile,
                    "diffusion profile of the technique (dipole); see 'nacre models'");
     app.add_option("--set", o->set, "name=value: an option of the technique")

@@ -59,7 +59,7 @@ class CommandLine : public testing::Test {
     Outcome nacre(const std::string& arguments) const {
         const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
         const std::string line = fmt::format("cd '{}' && '{}' {} >stdout 2>stderr",
-                                             folder_.string(), NACRE_BINARY, arguments);
+                                             folder_.string(), program_, arguments);
         const int status = std::system(line.c_str());
         Outcome r{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
         fs::remove(out);
@@ -76,6 +76,7 @@ class CommandLine : public testing::Test {
         return r;
     }
     fs::path folder_;
+    std::string program_ = NACRE_BINARY;
 };
 
 }  // namespace nacre::test

@@ -30,8 +30,13 @@ TEST_F(Subsurface, MakesAMediumAndABoundary) {
     EXPECT_NEAR(c.sigma_t[2], 3.0071, 1e-5);
     EXPECT_EQ(shape.subsurface->technique, "two_pass");
     EXPECT_EQ(shape.subsurface->profile, "dipole");
-    EXPECT_EQ(shape.subsurface->spacing, 0.5);
-    EXPECT_EQ(shape.subsurface->exit, "paper");
+    ASSERT_EQ(shape.subsurface->options.size(), 2u);
+    EXPECT_EQ(shape.subsurface->options[0].name, "spacing");
+    EXPECT_EQ(shape.subsurface->options[0].value, "0.5");
+    EXPECT_TRUE(shape.subsurface->options[0].where.ends_with("scene.xml:2:46"))
+        << shape.subsurface->options[0].where;
+    EXPECT_EQ(shape.subsurface->options[1].name, "exit_fresnel");
+    EXPECT_EQ(shape.subsurface->options[1].value, "paper");
 }
 
 TEST_F(Subsurface, TakesTheNamesOfMitsuba06) {
@@ -42,63 +47,21 @@ TEST_F(Subsurface, TakesTheNamesOfMitsuba06) {
                               "0.6.0");
     const ShapeBinding& shape = s.shapes.at(0);
     EXPECT_FLOAT_EQ(boundary_eta(shape), 1.3f);
-    EXPECT_EQ(shape.subsurface->irradiance_samples, 32);
+    ASSERT_EQ(shape.subsurface->options.size(), 1u);
+    EXPECT_EQ(shape.subsurface->options[0].name, "irr_samples");
+    EXPECT_EQ(shape.subsurface->options[0].value, "32");
     EXPECT_NEAR(shape.interior->coefficients({}, Wavelengths::rgb_bands()).sigma_t[0], 7.5, 1e-5);
 }
 
 TEST_F(Subsurface, TechniquesTakeMediaBehindSmoothBoundaries) {
-    Scene s = load_with(R"(<shape type="sphere"><bsdf type="dielectric"/>
+    const Scene s = load_with(R"(<shape type="sphere"><bsdf type="dielectric"/>
         <medium name="interior" type="homogeneous"><string name="material" value="skimmilk"/></medium>
         </shape><shape type="sphere"><bsdf type="null"/><medium name="interior" type="homogeneous"/>
         </shape><shape type="sphere"/>)");
     EXPECT_FALSE(s.shapes[0].subsurface);
-    const auto surface = [](SubsurfaceSettings& settings) { settings.technique = "surface"; };
-    use_technique(s, surface);
-    ASSERT_TRUE(s.shapes[0].subsurface && s.shapes[1].subsurface);
-    EXPECT_EQ(s.shapes[0].subsurface->technique, "surface");
+    EXPECT_TRUE(is_translucent(s.shapes[0]) && is_translucent(s.shapes[1]));
     EXPECT_EQ(boundary_eta(s.shapes[1]), 1.f);
-    EXPECT_FALSE(s.shapes[2].subsurface);
-    EXPECT_EQ(s.integrator.type, "path");
-    // What the scene says otherwise stays.
-    use_technique(s, [](SubsurfaceSettings& settings) { settings.spacing = 2.; });
-    EXPECT_EQ(s.shapes[0].subsurface->technique, "surface");
-
-    Scene opaque = load_with(R"(<shape type="sphere"/>)");
-    try {
-        use_technique(opaque, surface);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "technique 'surface' has nothing to do: no shape has a homogeneous medium "
-                     "inside behind a dielectric boundary, smooth or equally rough everywhere, "
-                     "without dispersion or tint");
-    }
-}
-
-TEST_F(Subsurface, OptionsOfTheCommandLine) {
-    SubsurfaceSettings settings;
-    set_option(settings, "spacing", "2.5");
-    set_option(settings, "irradiance_samples", "64");
-    set_option(settings, "points", "repulsion");
-    EXPECT_EQ(settings.spacing, 2.5);
-    EXPECT_EQ(settings.irradiance_samples, 64);
-    set_option(settings, "free_path", "diffuse");
-    EXPECT_EQ(settings.points, "repulsion");
-    EXPECT_EQ(settings.free_path, "diffuse");
-    const std::vector<std::array<const char*, 3>> wrong = {
-        {"spaceing", "1", "unknown option 'spaceing'; did you mean 'spacing'?"},
-        {"spacing", "much", "option 'spacing' = much must be a number within [0.01, 100]"},
-        {"error", "-1", "option 'error' = -1 must be a number within [0, 10]"},
-        {"irradiance_samples", "1.5",
-         "option 'irradiance_samples' = 1.5 must be a whole number within [1, 65536]"},
-        {"exit_fresnel", "normalized",
-         "option 'exit_fresnel' has no value 'normalized'; did you mean 'normalised'?"}};
-    for (const auto& [name, value, message] : wrong) try {
-            set_option(settings, name, value);
-            ADD_FAILURE() << name;
-        } catch (const InputError& error) {
-            EXPECT_STREQ(error.what(), message);
-        }
+    EXPECT_FALSE(is_translucent(s.shapes[2]));
 }
 
 TEST_F(Subsurface, TheFiguresAreSolids) {

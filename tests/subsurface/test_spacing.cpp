@@ -9,11 +9,13 @@ namespace nacre {
 namespace {
 
 std::string message(double spacing, const char* points, double area, double free_path) {
-    SubsurfaceSettings settings;
-    settings.spacing = spacing;
-    settings.points = points;
+    TwoPassOptions options;
+    options.spacing = spacing;
+    options.points = points == std::string("random")      ? PointMethod::random
+                     : points == std::string("repulsion") ? PointMethod::repulsion
+                                                          : PointMethod::elimination;
     try {
-        check_spacing(settings, area, free_path);
+        check_spacing(options, area, free_path);
     } catch (const InputError& error) {
         return error.what();
     }

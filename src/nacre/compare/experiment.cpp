@@ -26,7 +26,7 @@ std::filesystem::path file_of(const ExperimentOptions& o, std::string id) {
     return o.folder / (id + ".exr");
 }
 
-Measurement measure_row(const ExperimentRow& row, Scene& scene, const ExperimentOptions& o,
+Measurement measure_row(const ExperimentRow& row, const Scene& scene, const ExperimentOptions& o,
                         const std::function<void(double)>& progress) {
     const MeasurementOptions options{.repeats = o.repeats,
                                      .seed = o.seed,
@@ -39,7 +39,7 @@ Measurement measure_row(const ExperimentRow& row, Scene& scene, const Experiment
         return measure_peer(scene, *row.peer, o.peer_source, jobs / std::string(row.peer->name),
                             options);
     }
-    const bool simulates = !find_technique(row.setting.choice.technique).make;
+    const bool simulates = techniques().find(row.setting.choice.technique).simulates;
     return measure(o.simplified && !simulates ? *o.simplified : scene, row.setting, options);
 }
 
@@ -78,7 +78,7 @@ PixelMask translucent_pixels(const Scene& scene, bool& object_only) {
     return any ? mask : PixelMask();
 }
 
-Experiment run_experiment(Scene& scene, const ExperimentOptions& o) {
+Experiment run_experiment(const Scene& scene, const ExperimentOptions& o) {
     if (!o.folder.empty()) make_output_folder(o.folder);
     Experiment e;
     e.mask = translucent_pixels(scene, e.object_only);

@@ -28,7 +28,7 @@ struct ExperimentOptions {
     bool fresh = false;            ///< measure everything anew
     /// What techniques other than complete simulation render instead of the scene, if they cannot
     /// take it; null: the scene.
-    Scene* simplified = nullptr;
+    const Scene* simplified = nullptr;
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const ExperimentProgress&)> progress = {};
     std::function<void(const std::string& message)> warn = {};  ///< what does not end the work
@@ -55,8 +55,8 @@ struct Experiment {
 /// `object_only` is false.
 PixelMask translucent_pixels(const Scene& scene, bool& object_only);
 
-/// Runs it. The scene is as it was when it returns. Throws InputError for a wrong reference, and if
+/// Runs it. Throws InputError for a wrong reference, and if
 /// the object is too small in the picture to be measured.
-Experiment run_experiment(Scene& scene, const ExperimentOptions& options);
+Experiment run_experiment(const Scene& scene, const ExperimentOptions& options);
 
 }  // namespace nacre

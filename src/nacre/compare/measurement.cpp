@@ -21,16 +21,16 @@ Image picture_of(const Film& film) {
     return image;
 }
 
-void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
+void measure_into(Measurement& m, const Scene& scene, const TechniqueSetting& setting,
                   const MeasurementOptions& options) {
-    const WithSetting as_setting(scene, setting.choice);
-    scene.sampler.samples = setting.samples;
-    scene.integrator.moment = false;
+    const RenderPlan plan = plan_of(scene, setting.choice);
+    FrameSettings frame = FrameSettings::of(scene);
+    frame.sampler.samples = setting.samples;
     const PeakMemory memory;
     std::vector<Image> frames;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
         if (options.stop && options.stop->load()) return;
-        scene.sampler.seed = frame_seed(options.seed, repeat);
+        frame.sampler.seed = frame_seed(options.seed, repeat);
         RenderOptions render_options;
         render_options.threads = options.threads;
         render_options.stop = options.stop;
@@ -40,7 +40,7 @@ void measure_into(Measurement& m, Scene& scene, const TechniqueSetting& setting,
                 const double share = p.phase.empty() ? p.share() : 0.;
                 options.progress((repeat + share) / options.repeats);
             };
-        const RenderResult r = render_with(scene, make_technique_integrator, render_options);
+        const RenderResult r = render(scene, plan, frame, render_options);
         if (!r.complete) return;
         frames.push_back(picture_of(r.film));
         m.timings.push_back(
@@ -85,7 +85,7 @@ void set_pictures(Measurement& m, const std::vector<Image>& frames) {
     }
 }
 
-Measurement measure(Scene& scene, const TechniqueSetting& setting,
+Measurement measure(const Scene& scene, const TechniqueSetting& setting,
                     const MeasurementOptions& options) {
     if (options.repeats < 2)
         throw InputError(fmt::format(

@@ -55,7 +55,7 @@ struct MeasurementOptions {
 
 /// Renders `scene` at a setting. Each repeat has a seed of its own and precomputes anew. What goes
 /// wrong makes it `failed`, with the reason; a stop makes it `missing`.
-Measurement measure(Scene& scene, const TechniqueSetting& setting,
+Measurement measure(const Scene& scene, const TechniqueSetting& setting,
                     const MeasurementOptions& options);
 
 /// Channels R, G, B: the mean; variance.*: of one sample, as `variance_of_mean` reads it; frame.*:

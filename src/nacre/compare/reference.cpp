@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "nacre/metrics/metrics.h"
+#include "nacre/render/film_state.h"
 #include "nacre/scene/content_key.h"
-#include "nacre/subsurface/missing_light.h"
+#include "nacre/techniques/missing_light.h"
+#include "nacre/text/number.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre {
@@ -22,113 +23,86 @@ constexpr int first_round = 16;
 // What is lost if it is stopped: a round takes about this long once the speed is known.
 constexpr double round_seconds = 20;
 
-const char* const names[] = {"R", "G", "B"};
-
-/// Sums over the samples of all rounds.
-struct Accumulation {
-    Image mean, variance;  ///< the variance of one sample
-    int samples = 0, rounds = 0;
+/// The samples of all rounds.
+struct Rounds {
+    std::optional<Film> film;
+    int samples = 0, count = 0;
     double cpu_seconds = 0;
 
-    void add(const Film& film, int n) {
-        if (samples == 0) {
-            mean = Image(film.width(), film.height());
-            variance = mean;
-        }
-        const double total = samples + n;
-        for (int y = 0; y < film.height(); ++y)
-            for (int x = 0; x < film.width(); ++x) {
-                const Vec3f m = film.mean(x, y), v = film.sample_variance(x, y);
+    void add(Film&& round, int n) {
+        if (film)
+            film->merge(round);
+        else
+            film = std::move(round);
+        samples += n;
+        ++count;
+    }
+
+    void save(const std::filesystem::path& file, const std::string& key) const {
+        FilmState::save(*film, notes(key), file);
+    }
+    /// What was kept under that key; nothing if the file holds something else. Throws InputError if
+    /// it is damaged.
+    static std::optional<Rounds> load(const std::filesystem::path& file, const std::string& key,
+                                      const FilmSettings& settings) {
+        std::error_code error;
+        if (!std::filesystem::exists(file, error)) return {};
+        FilmState state = FilmState::load(file);
+        if (state.notes["key"] != key) return {};
+        const auto number = [&](const char* name, double least, double most) {
+            const auto n = parse_number(state.notes[name]);
+            if (!n || !(*n >= least && *n <= most))
+                throw InputError(fmt::format("it holds {} = '{}'", name, state.notes[name]));
+            return *n;
+        };
+        Rounds r;
+        r.samples = int(number("samples", 1, 2e9));
+        r.count = int(number("rounds", 1, 2e9));
+        r.cpu_seconds = number("cpu_seconds", 0, 1e15);
+        r.film = Film(settings);  // which another film cannot be added to
+        r.film->merge(state.film);
+        return r;
+    }
+
+    /// With the variance of one sample.
+    Image picture(const std::string& key) const {
+        Image image(film->width(), film->height(),
+                    {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
+        for (int y = 0; y < film->height(); ++y)
+            for (int x = 0; x < film->width(); ++x) {
+                const Vec3f mean = film->mean(x, y), variance = film->sample_variance(x, y);
                 for (int c = 0; c < 3; ++c) {
-                    // Chan, Golub and LeVeque 1979: sums of squares about the means of two parts.
-                    const double difference = double(m[c]) - mean.at(x, y, c);
-                    const double squares = double(variance.at(x, y, c)) * std::max(0, samples - 1) +
-                                           double(v[c]) * (n - 1) +
-                                           difference * difference * samples * n / total;
-                    mean.at(x, y, c) = float(mean.at(x, y, c) + difference * n / total);
-                    variance.at(x, y, c) = float(squares / (total - 1));
+                    image.at(x, y, c) = mean[c];
+                    image.at(x, y, 3 + c) = variance[c];
                 }
             }
-        samples += n;
-        ++rounds;
+        for (const auto& [name, value] : notes(key)) image.metadata["nacre." + name] = value;
+        return image;
     }
-
     Image variance_of_mean() const {
-        Image v = variance;
-        for (float& x : v.data) x /= float(samples);
-        return v;
-    }
-
-    Image to_image(const std::string& key) const {
-        Image image(mean.width, mean.height,
-                    {"R", "G", "B", "variance.R", "variance.G", "variance.B"});
-        for (int y = 0; y < mean.height; ++y)
-            for (int x = 0; x < mean.width; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    image.at(x, y, c) = mean.at(x, y, c);
-                    image.at(x, y, 3 + c) = variance.at(x, y, c);
-                }
-        image.metadata = {{"nacre.samples", fmt::to_string(samples)},
-                          {"nacre.complete", "yes"},
-                          {"nacre.rounds", fmt::to_string(rounds)},
-                          {"nacre.cpu_seconds", fmt::format("{:.3f}", cpu_seconds)},
-                          {"nacre.key", key}};
+        Image image(film->width(), film->height());
+        for (int y = 0; y < film->height(); ++y)
+            for (int x = 0; x < film->width(); ++x)
+                for (int c = 0; c < 3; ++c)
+                    image.at(x, y, c) = film->sample_variance(x, y)[c] / float(samples);
         return image;
     }
 
-    /// What was kept under that key; nothing if the file holds something else. Throws InputError if
-    /// it is damaged.
-    static std::optional<Accumulation> read(const std::filesystem::path& file,
-                                            const std::string& key, int width, int height) {
-        std::error_code error;
-        if (!std::filesystem::exists(file, error)) return {};
-        const Image image = read_image(file, {.any_channels = true});
-        const auto value = [&](const char* name) {
-            const auto at = image.metadata.find(std::string("nacre.") + name);
-            return at == image.metadata.end() ? std::string() : at->second;
-        };
-        if (value("key") != key) return {};
-        Accumulation a;
-        const auto damaged = [](const std::string& what) { return InputError("it holds " + what); };
-        const auto number = [&](const char* name, double least, double most) {
-            const std::string text = value(name);
-            double x = 0;
-            const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), x);
-            if (wrong != std::errc() || end != text.data() + text.size() ||
-                !(x >= least && x <= most))
-                throw damaged(fmt::format("{} = '{}'", name, text));
-            return x;
-        };
-        a.samples = int(number("samples", 1, 2e9));
-        a.rounds = int(number("rounds", 1, 2e9));
-        a.cpu_seconds = number("cpu_seconds", 0, 1e15);
-        if (image.width != width || image.height != height)
-            throw damaged(fmt::format("{} x {} pixels", image.width, image.height));
-        a.mean = Image(image.width, image.height);
-        a.variance = a.mean;
-        for (int c = 0; c < 3; ++c) {
-            const int m = image.channel(names[c]),
-                      v = image.channel(std::string("variance.") + names[c]);
-            if (m < 0 || v < 0) throw damaged("no variances");
-            for (int y = 0; y < image.height; ++y)
-                for (int x = 0; x < image.width; ++x) {
-                    a.mean.at(x, y, c) = image.at(x, y, m);
-                    a.variance.at(x, y, c) = image.at(x, y, v);
-                    if (!std::isfinite(image.at(x, y, m)) || !(image.at(x, y, v) >= 0.f))
-                        throw damaged("values that are not numbers");
-                }
-        }
-        return a;
+  private:
+    std::map<std::string, std::string> notes(const std::string& key) const {
+        return {{"samples", fmt::to_string(samples)},
+                {"complete", "yes"},
+                {"rounds", fmt::to_string(count)},
+                {"cpu_seconds", fmt::format("{:.3f}", cpu_seconds)},
+                {"key", key}};
     }
 };
 
 /// What was kept, or nothing: a file that is damaged is set aside, and the reason told.
-std::optional<Accumulation> take_up(const std::filesystem::path& file, const std::string& key,
-                                    const FilmSettings& film, const ReferenceOptions& options) {
-    const bool cropped = film.crop_width > 0;
+std::optional<Rounds> take_up(const std::filesystem::path& file, const std::string& key,
+                              const FilmSettings& film, const ReferenceOptions& options) {
     try {
-        return Accumulation::read(file, key, cropped ? film.crop_width : film.width,
-                                  cropped ? film.crop_height : film.height);
+        return Rounds::load(file, key, film);
     } catch (const std::exception& error) {
         const std::filesystem::path aside = file.string() + ".damaged";
         std::error_code failed;
@@ -155,22 +129,22 @@ double block_standard_error(const Image& picture, const Image& variance, const P
     return std::sqrt(m.block.mean_square.noise.value_or(0.));
 }
 
-Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOptions& options) {
+Reference make_reference(const Scene& scene, const PixelMask& mask, const ReferenceOptions& options) {
     if (!(options.error > 0)) throw InputError("the error of a reference must be positive");
-    if (!find_technique(options.technique.technique).make) require_lit_insides(scene);
-    const WithSetting as_reference(scene, options.technique);
-    scene.sampler.type = "independent";  // whose variance is known
-    scene.integrator.moment = true;
+    if (techniques().find(options.technique.technique).simulates) require_lit_insides(scene);
+    const RenderPlan plan = plan_of(scene, options.technique);
+    FrameSettings frame = FrameSettings::of(scene);
+    frame.sampler.type = "independent";  // whose variance is known
     const TechniqueSetting setting{options.technique, 0};
-    const std::string key = fmt::format("{} {}", content_key(scene), setting.id());
+    const std::string key = fmt::format("{} {} film", content_key(scene), setting.id());
 
     Reference reference;
-    Accumulation sum;
+    Rounds sum;
     if (!options.store.empty()) {
         make_output_folder(options.store);
         reference.file = options.store / fmt::format("{:016x}.exr", hash_bytes(key));
         if (!options.fresh)
-            if (auto kept = take_up(reference.file, key, scene.film, options))
+            if (auto kept = take_up(reference.file, key, frame.film, options))
                 sum = std::move(*kept);
     }
 
@@ -181,7 +155,7 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
         double needed = first_round;
         if (sum.samples > 0) {
             reference.error =
-                block_standard_error(sum.mean, sum.variance_of_mean(), mask, options.block);
+                block_standard_error(sum.picture(key), sum.variance_of_mean(), mask, options.block);
             const double ratio = reference.error / options.error;
             needed = sum.samples * ratio * ratio;
             reference.reached = reference.error <= options.error;
@@ -195,8 +169,8 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
         double n = std::clamp(std::ceil(1.02 * needed) - sum.samples, 4.,
                               std::max(16., double(sum.samples)));
         if (wall_per_sample > 0) n = std::min(n, std::max(4., round_seconds / wall_per_sample));
-        scene.sampler.samples = int(n);
-        scene.sampler.seed = stream_key(reference_stream, std::uint64_t(sum.rounds));
+        frame.sampler.samples = int(n);
+        frame.sampler.seed = stream_key(reference_stream, std::uint64_t(sum.count));
         RenderOptions render_options;
         render_options.threads = options.threads;
         render_options.stop = options.stop;
@@ -205,18 +179,18 @@ Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOpt
                 const double now = sum.samples + (p.phase.empty() ? n * p.share() : 0.);
                 options.progress(std::min(0.99, now / needed), reference.error);
             };
-        const RenderResult result = render_with(scene, make_technique_integrator, render_options);
+        RenderResult result = render(scene, plan, frame, render_options);
         if (!result.complete) break;
-        sum.add(result.film, scene.sampler.samples);
+        sum.add(std::move(result.film), frame.sampler.samples);
         sum.cpu_seconds += result.cpu_seconds + result.precompute_cpu_seconds;
-        wall_per_sample = result.seconds / scene.sampler.samples;
+        wall_per_sample = result.seconds / frame.sampler.samples;
         reference.reused = false;
-        if (!reference.file.empty()) write_image(sum.to_image(key), reference.file);
+        if (!reference.file.empty()) sum.save(reference.file, key);
     }
     reference.samples = sum.samples;
     reference.cpu_seconds = sum.cpu_seconds;
     if (sum.samples > 0) {
-        reference.picture = sum.to_image(key);
+        reference.picture = sum.picture(key);
         reference.variance = sum.variance_of_mean();
     }
     return reference;

@@ -38,12 +38,12 @@ struct Reference {
 };
 
 /// Renders in rounds of independent samples with seeds of their own, and keeps the sum after each
-/// as STORE/KEY.exr, where KEY stands for content_key and technique: a render that is stopped, or
-/// that wants less noise later, goes on from there. A file there that is damaged is set aside as
+/// as STORE/KEY.exr (film_state.h), where KEY stands for content_key and technique: a render that
+/// is stopped, or that wants less noise later, goes on from there. A file there that is damaged is set aside as
 /// KEY.exr.damaged and made anew. Whoever changes how that technique computes
 /// asks for a `fresh` one. Throws InputError for unknown techniques and a store that cannot be
 /// made, RunError if it cannot be written.
-Reference make_reference(Scene& scene, const PixelMask& mask, const ReferenceOptions& options);
+Reference make_reference(const Scene& scene, const PixelMask& mask, const ReferenceOptions& options);
 
 /// Root mean square over blocks and channels of the relative standard error of a block's mean.
 double block_standard_error(const Image& picture, const Image& variance, const PixelMask& mask,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "nacre/bssrdf/profile.h"
 #include "nacre/math/error.h"
 #include "nacre/text/split_words.h"
 
@@ -12,20 +11,19 @@ namespace nacre {
 namespace {
 
 TechniqueChoice parse_choice(const std::vector<std::string_view>& words) {
-    TechniqueChoice choice;
-    choice.technique = std::string(find_technique(words[0]).name);
+    TechniqueChoice choice{std::string(words[0])};
+    techniques().find(words[0]);  // before its options are looked at
     for (std::size_t i = 1; i < words.size(); ++i) {
         const std::size_t equals = words[i].find('=');
         if (equals == 0 || equals == words[i].npos)
             throw InputError(
                 fmt::format("'{}' of {} is not of the form name=value", words[i], words[0]));
-        const std::string name(words[i].substr(0, equals)), value(words[i].substr(equals + 1));
-        if (name == "profile")
-            choice.profile = std::string(profiles().find(value).name);
-        else
-            choice.options.emplace_back(name, value);
+        choice.options.emplace_back(words[i].substr(0, equals), words[i].substr(equals + 1));
     }
-    check_choice(choice);  // a wrong option is better known before than after an hour
+    choice = checked(choice);  // a wrong option is better known before than after an hour
+    // What tells settings apart is named in one order.
+    std::ranges::stable_partition(choice.options,
+                                  [](const auto& option) { return option.first == "profile"; });
     return choice;
 }
 
@@ -35,13 +33,13 @@ std::vector<TechniqueChoice> parse_list(std::string_view list) {
         for (TechniqueChoice& c : variants_of(technique)) choices.push_back(std::move(c));
     };
     if (list == "all") {
-        for (const TechniqueDescription& t : techniques()) add_variants(t);
+        for (const TechniqueDescription* t : techniques()) add_variants(*t);
         return choices;
     }
     for (const std::string_view item : split_words(list, ",")) {
         const std::vector<std::string_view> words = split_words(item, ":");
         if (words.size() == 1)
-            add_variants(find_technique(words[0]));
+            add_variants(techniques().find(words[0]));
         else if (!words.empty())
             choices.push_back(parse_choice(words));
     }
@@ -54,7 +52,6 @@ std::vector<TechniqueChoice> parse_list(std::string_view list) {
 
 std::string TechniqueSetting::options() const {
     std::string text;
-    if (!choice.profile.empty()) text = "profile=" + choice.profile;
     for (const auto& [name, value] : choice.options)
         text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
     return text;
@@ -67,9 +64,9 @@ std::string TechniqueSetting::id() const {
 
 std::string TechniqueSetting::arguments() const {
     std::string text = "--technique " + choice.technique;
-    if (!choice.profile.empty()) text += " --profile " + choice.profile;
     for (const auto& [name, value] : choice.options)
-        text += fmt::format(" --set {}={}", name, value);
+        text += name == "profile" ? " --profile " + value
+                                  : fmt::format(" --set {}={}", name, value);
     return text + fmt::format(" --spp {}", samples);
 }
 
@@ -86,19 +83,6 @@ std::vector<TechniqueSetting> parse_techniques(std::string_view list,
             settings.push_back(setting);
         }
     return settings;
-}
-
-WithSetting::WithSetting(Scene& scene, const TechniqueChoice& choice)
-    : scene_(scene), integrator_(scene.integrator), sampler_(scene.sampler) {
-    for (const ShapeBinding& s : scene.shapes) subsurface_.push_back(s.subsurface);
-    choose_technique(scene, choice);  // throws before it changes anything
-}
-
-WithSetting::~WithSetting() {
-    scene_.integrator = integrator_;
-    scene_.sampler = sampler_;
-    for (std::size_t i = 0; i < subsurface_.size(); ++i)
-        scene_.shapes[i].subsurface = subsurface_[i];
 }
 
 }  // namespace nacre

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nacre/subsurface/technique.h"
+#include "nacre/techniques/techniques.h"
 
 namespace nacre {
 
@@ -27,20 +27,5 @@ struct TechniqueSetting {
 /// values out of range, and for what is asked for twice.
 std::vector<TechniqueSetting> parse_techniques(std::string_view list,
                                                const std::vector<int>& samples);
-
-/// Has a scene rendered as a setting says while it lives, then as before.
-class WithSetting {
-  public:
-    WithSetting(Scene& scene, const TechniqueChoice& choice);
-    ~WithSetting();
-    WithSetting(const WithSetting&) = delete;
-    WithSetting& operator=(const WithSetting&) = delete;
-
-  private:
-    Scene& scene_;
-    IntegratorSettings integrator_;
-    SamplerSettings sampler_;
-    std::vector<std::shared_ptr<const SubsurfaceSettings>> subsurface_;
-};
 
 }  // namespace nacre

@@ -10,7 +10,11 @@
 namespace nacre {
 
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, const Work& work) {
-    const std::string& type = scene.integrator.type;
+    return make_integrator(scene, scene.integrator.type, work);
+}
+
+std::unique_ptr<Integrator> make_integrator(const Scene& scene, std::string_view type,
+                                            const Work& work) {
     if (type == "ray") return std::make_unique<PathTracer>(scene, true);
     if (type == "path") return std::make_unique<PathTracer>(scene, false);
     if (type == "volpath") return std::make_unique<VolumePathTracer>(scene, work);

@@ -44,6 +44,9 @@ class Integrator {
 /// The integrator named by scene.integrator. `scene` outlives it. Precomputation (distance grid)
 /// happens here. Throws InputError for an unknown type, Stopped if `work` says so.
 std::unique_ptr<Integrator> make_integrator(const Scene& scene, const Work& work = {});
+/// One of another type than the scene names.
+std::unique_ptr<Integrator> make_integrator(const Scene& scene, std::string_view type,
+                                            const Work& work = {});
 
 /// The types that make_integrator knows.
 std::span<const std::string_view> integrator_types();

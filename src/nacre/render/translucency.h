@@ -55,6 +55,9 @@ class Translucency {
     virtual Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                              const Wavelengths& wavelengths, RayCounts& counts) const = 0;
 
+    /// The same matter under the lights that the scene has now; null: it holds nothing of lights.
+    virtual std::shared_ptr<const Translucency> relit() const { return nullptr; }
+
     const ObjectBoundary& boundary() const { return boundary_; }
     /// What a path goes on from at an entry: a "reflector" towards the `wo` of `emerge`, without
     /// the boundary's transmittance in that direction. Where light enters elsewhere than it leaves,

@@ -10,7 +10,7 @@
 #include "nacre/report/advice.h"
 #include "nacre/report/crops.h"
 #include "nacre/report/report.h"
-#include "nacre/subsurface/missing_light.h"
+#include "nacre/techniques/missing_light.h"
 
 namespace nacre {
 namespace {
@@ -96,7 +96,7 @@ ordered_json about(const TechniqueDescription& t, const Measurement& m) {
     add("Technique", t.how);
     add("Paper", fmt::format("{} {}: {}", t.authors, t.year, t.paper));
     add("Precomputes", t.precomputes.empty() ? "nothing" : t.precomputes);
-    add("May change", t.may_change);
+    add("May change", t.keeps.text());
     if (m.samples) add("Samples a pixel", fmt::to_string(m.samples));
     if (!m.timings.empty()) {
         std::string times;
@@ -164,7 +164,7 @@ ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin, 
                           bool several_samples) {
     const Measurement& m = row.measurement;
     if (row.peer) return describe_peer_row(row);
-    const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
+    const TechniqueDescription& technique = techniques().find(row.setting.choice.technique);
     std::string setting = row.setting.options();
     if (several_samples)
         setting += fmt::format("{}{} spp", setting.empty() ? "" : " ", row.setting.samples);
@@ -179,7 +179,7 @@ ordered_json describe_row(const ExperimentRow& row, const ReportOrigin& origin, 
         r["picture"] = m.id;
         r["flip"] = m.id;
     }
-    r["values"]["changes"] = std::string(technique.may_change);
+    r["values"]["changes"] = technique.keeps.text();
     r["command"] =
         fmt::format("nacre render {} {} --seed {} -o picture.exr", origin.scene_arguments,
                     row.setting.arguments(), frame_seed(seed, 0));
@@ -215,7 +215,7 @@ ordered_json facts(const Experiment& e, const Scene& scene, const ExperimentOpti
         {"Reference",
          fmt::format("{}, {} samples a pixel, noise {:.2g} % (RMS of blocks of {} x {} "
                      "pixels), {:.0f} CPU s",
-                     find_technique(o.reference.technique.technique).title, e.reference.samples,
+                     techniques().find(o.reference.technique.technique).title, e.reference.samples,
                      100 * e.reference.error, o.block, o.block, e.reference.cpu_seconds)});
     list.push_back({"Counted", e.object_only
                                    ? fmt::format("the {} pixels that show translucent objects",
@@ -314,7 +314,7 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
         d["pictures"][row.measurement.id] = rgbe_picture(shrunk(row.measurement.frame, side));
         d["maps"][row.measurement.id] = byte_map(shrunk(row.verdict->flip_map, side));
     }
-    d["reference"] = {{"title", std::string(find_technique(o.reference.technique.technique).title)},
+    d["reference"] = {{"title", std::string(techniques().find(o.reference.technique.technique).title)},
                       {"picture", "reference"},
                       {"about", ordered_json::array({ordered_json::array(
                                     {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};

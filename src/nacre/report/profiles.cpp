@@ -28,9 +28,12 @@ std::vector<std::string> profiles_of(const std::vector<ExperimentRow>& rows) {
     std::vector<std::string> names;
     for (const ExperimentRow& row : rows) {
         if (row.peer) continue;
-        const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
-        if (technique.profiles.empty()) continue;
-        const std::string& chosen = row.setting.choice.profile;
+        const TechniqueDescription& technique =
+            techniques().find(row.setting.choice.technique);
+        if (std::ranges::find(technique.parameters, "profile", &Parameter::name) ==
+            technique.parameters.end())
+            continue;
+        const std::string chosen = row.setting.choice.option("profile");
         const std::string name = chosen.empty() ? SubsurfaceSettings().profile : chosen;
         if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }

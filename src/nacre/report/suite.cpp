@@ -174,11 +174,11 @@ SuiteResult summarise(const SuiteCase& which, const Experiment& e) {
     for (std::size_t i = 0; i < e.rows.size(); ++i) {
         const ExperimentRow& row = e.rows[i];
         if (row.peer) continue;
-        const TechniqueDescription& technique = find_technique(row.setting.choice.technique);
+        const TechniqueDescription& technique = techniques().find(row.setting.choice.technique);
         SuiteCell cell{.id = id_of(row.setting),
                        .title = std::string(technique.title),
                        .why = row.measurement.why,
-                       .may_change = std::string(technique.may_change)};
+                       .may_change = technique.keeps.text()};
         if (row.verdict) {
             cell.systematic = row.verdict->systematic.value;
             cell.sigma = row.verdict->systematic.sigma;

@@ -5,7 +5,7 @@
 #include "nacre/math/quadrature.h"
 #include "nacre/math/sampling.h"
 #include "nacre/optics/fresnel_moments.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/technique/common_parameters.h"
 
 namespace nacre {
 
@@ -90,17 +90,42 @@ std::optional<MaterialSample> LocalScatteringLobe::sample(const SurfacePoint& at
     return s;
 }
 
-TranslucencyPtr make_hanrahan_krueger(const TechniqueInput& in) {
-    const Medium& medium = *in.scene.shapes[in.shape].interior;
-    auto profile = std::make_shared<const ProfileTables>(
-        medium, in.eta, in.settings.profile, Bands(in.scene.mode), in.rough_return, in.work);
-    const std::string& choice = in.settings.single_scattering;
+namespace {
+
+TranslucencyPtr make_local_scattering(const ShapeInput& in) {
+    auto profile = profile_tables(in);
+    const auto choice = in.options.choice<SingleScatteringChoice>("single_scattering");
     const LocalScatteringLobe::Orders orders{
-        .single = choice != "off",
-        .subtracted = choice == "auto" && profile->includes_single_scattering()};
+        .single = choice != SingleScatteringChoice::off,
+        .subtracted = choice == SingleScatteringChoice::automatic &&
+                      profile->includes_single_scattering()};
     return std::make_shared<LocalScattering>(
-        in.boundary,
-        LocalScatteringLobe(medium, std::move(profile), in.boundary, in.exit_scale, orders));
+        in.boundary, LocalScatteringLobe(in.medium(), std::move(profile), in.boundary,
+                                         exit_scale(in), orders));
+}
+
+}  // namespace
+
+/// In the list of techniques/techniques.cpp.
+const TechniqueDescription& local_scattering_technique() {
+    static const TechniqueDescription description{
+        .name = "hanrahan_krueger",
+        .title = "local reflection with single scattering",
+        .authors = "P. Hanrahan, W. Krueger",
+        .year = 1993,
+        .paper = "Reflection from Layered Surfaces due to Subsurface Scattering, SIGGRAPH 93; with "
+                 "what a diffusion profile holds of higher orders",
+        .how = "all light leaves where it came in: the first order of a half space in closed form, "
+               "higher orders as Lambert's law with the profile's total, less the first order "
+               "where the profile includes it",
+        .precomputes = "the profile's total and the first order's share of it",
+        .keeps = {.view = true, .light = true, .geometry = true},
+        .parameters = {profile_parameter(), exit_fresnel_parameter(),
+                       single_scattering_parameter()},
+        .variants = "profile=dipole|profile=better_dipole",
+        .prepare = prepare_path_technique,
+        .below = make_local_scattering};
+    return description;
 }
 
 }  // namespace nacre

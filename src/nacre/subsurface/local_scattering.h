@@ -17,7 +17,7 @@
 #include "nacre/layers/hanrahan_krueger.h"
 #include "nacre/optics/phase.h"
 #include "nacre/render/profile_tables.h"
-#include "nacre/render/translucency.h"
+#include "nacre/technique/technique.h"
 
 namespace nacre {
 

@@ -11,7 +11,7 @@
 #include "nacre/optics/fresnel_moments.h"
 #include "nacre/render/profile_tables.h"
 #include "nacre/render/walk.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/technique/common_parameters.h"
 
 namespace nacre {
 
@@ -143,13 +143,13 @@ Translucency::Emergence RandomWalk::emerge(const SurfacePoint& exit, const Vec3f
     return {Spectral(0.f), entry, weight};
 }
 
-TranslucencyPtr make_random_walk(const TechniqueInput& in) {
+namespace {
+
+TranslucencyPtr make_random_walk(const ShapeInput& in) {
     const Bands bands(in.scene.mode);
-    const std::vector<ProfileMedium> media =
-        medium_in_bands(*in.scene.shapes[in.shape].interior, in.eta, bands);
+    const std::vector<ProfileMedium> media = medium_in_bands(in.medium(), in.eta(), bands);
     for (const ProfileMedium& m : media) check(m);
-    const FreePath keep =
-        in.settings.free_path == "diffuse" ? FreePath::diffuse : FreePath::transport;
+    const auto keep = in.options.choice<FreePath>("free_path");
     std::vector<RandomWalkMedium<double>> walks(media.size());
     WorkPhase phase(in.work, "inversion of the albedo", media.size());
     tbb::parallel_for(std::size_t(0), media.size(), [&](std::size_t i) {
@@ -157,7 +157,33 @@ TranslucencyPtr make_random_walk(const TechniqueInput& in) {
         phase.advance();
     });
     return std::make_shared<RandomWalk>(in.scene, in.shape, in.boundary, bands, walks,
-                                        in.exit_scale, in.rough_return);
+                                        exit_scale(in), in.rough_return);
+}
+
+}  // namespace
+
+/// In the list of techniques/techniques.cpp.
+const TechniqueDescription& random_walk_technique() {
+    static const TechniqueDescription description{
+        .name = "random_walk",
+        .title = "random walk from surface albedo",
+        .authors = "M. J.-Y. Chiang, P. Kutz, B. Burley",
+        .year = 2016,
+        .paper = "Practical and Controllable Subsurface Scattering for Production Path Tracing, "
+                 "SIGGRAPH 2016 Talks",
+        .how = "a walk without refraction, isotropic and of diffuse entry and exit, in the medium "
+               "whose half space would return the same share of the light, by their fit",
+        .precomputes = "the half space's albedo, by adding and doubling",
+        .keeps = {.view = true, .light = true},
+        .parameters = {exit_fresnel_parameter(),
+                       choice_parameter(
+                           "free_path", "the object's mean free path that random walks keep",
+                           {{"transport", "that of single paths"},
+                            {"diffuse", "that with which light far from its entry fades"}})},
+        .variants = "free_path=transport|free_path=diffuse",
+        .prepare = prepare_path_technique,
+        .below = make_random_walk};
+    return description;
 }
 
 }  // namespace nacre

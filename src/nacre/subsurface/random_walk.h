@@ -29,8 +29,8 @@
 #include "nacre/bssrdf/chiang2016.h"
 #include "nacre/bssrdf/medium.h"
 #include "nacre/render/path_state.h"
-#include "nacre/render/translucency.h"
 #include "nacre/spectrum/bands.h"
+#include "nacre/technique/technique.h"
 
 namespace nacre {
 

@@ -2,11 +2,11 @@
 // The two-pass technique of Jensen and Buhler 2002: irradiance at points of the surface, and what
 // they send to each exit by a hierarchy (irradiance_tree.h).
 #include "nacre/bssrdf/medium.h"
-#include "nacre/render/single_scattering.h"
-#include "nacre/render/translucency.h"
-#include "nacre/scene/subsurface.h"
+#include "nacre/geometry/surface_points.h"
 #include "nacre/spectrum/bands.h"
 #include "nacre/subsurface/irradiance_tree.h"
+#include "nacre/subsurface/single_scattering.h"
+#include "nacre/technique/technique.h"
 
 namespace nacre {
 
@@ -34,10 +34,18 @@ class TwoPass final : public Translucency {
     std::shared_ptr<const SingleScatteringTerm> single_;
 };
 
-/// Throws InputError if spacing and points of the settings make more points of a surface of that
-/// area than there may be; what it advises is in the unit and within the range of the option.
-/// `free_path` is the transport mean free path of the densest band.
-void check_spacing(const SubsurfaceSettings& settings, double area, double free_path);
+/// The technique's own parameters.
+struct TwoPassOptions {
+    double spacing = 1.;  ///< of points, in transport mean free paths of the densest band
+    double error = 0.2;   ///< largest solid angle of a group of points that counts as one, sr
+    int irradiance_samples = 8;  ///< paths at each point
+    PointMethod points = PointMethod::elimination;  ///< how they are spread
+};
+
+/// Throws InputError if these are more points of a surface of that area than there may be; what it
+/// advises is in the unit and within the range of the option. `free_path` is the transport mean
+/// free path of the densest band.
+void check_spacing(const TwoPassOptions& options, double area, double free_path);
 
 /// The kernel of "dipole" or "better_dipole"; throws InputError for other profiles.
 DipoleKernel make_kernel(std::string_view profile, const ProfileMedium& medium);

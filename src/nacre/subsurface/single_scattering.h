@@ -5,6 +5,7 @@
 #include "nacre/render/integrator.h"
 #include "nacre/render/light_chooser.h"
 #include "nacre/render/object_boundary.h"
+#include "nacre/technique/path_technique.h"
 
 namespace nacre {
 
@@ -27,5 +28,9 @@ class SingleScatteringTerm {
     LightChooser lights_;
     bool has_null_;
 };
+
+/// The term, if the technique's "single_scattering" and the profile want it; else null.
+std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const ShapeInput& in,
+                                                                 bool profile_includes_it);
 
 }  // namespace nacre

@@ -1,4 +1,4 @@
-#include "nacre/subsurface/missing_light.h"
+#include "nacre/techniques/missing_light.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "nacre/math/error.h"
 #include "nacre/scene/subsurface.h"
-#include "nacre/subsurface/technique.h"
 
 namespace nacre {
 namespace {
@@ -68,12 +67,11 @@ std::vector<std::uint32_t> shapes_where(const Scene& scene, F&& test) {
     return found;
 }
 
-std::string unseen_media(const Scene& scene) {
-    const bool techniques = scene.integrator.type == "path";
+std::string unseen_media(const Scene& scene, const RenderPlan& plan) {
     const std::vector<std::uint32_t> shapes =
-        shapes_where(scene, [&](std::uint32_t, const ShapeBinding& s) {
+        shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
             const bool opaque = !(s.material->flags() & (transmits | has_null));
-            return (s.interior || s.exterior) && !opaque && !(techniques && s.subsurface);
+            return (s.interior || s.exterior) && !opaque && !plan.has_technique(i);
         });
     if (shapes.empty() && !scene.camera_medium) return "";
     const bool translucent = std::ranges::any_of(
@@ -81,18 +79,18 @@ std::string unseen_media(const Scene& scene) {
     return fmt::format(
         "integrator '{}' does not see the medium {}: the picture is as if it were not there; use "
         "--integrator volpath{}",
-        scene.integrator.type,
-        shapes.empty() ? "around the camera" : "at " + names_of(scene, shapes),
+        plan.integrator, shapes.empty() ? "around the camera" : "at " + names_of(scene, shapes),
         translucent ? ", or a technique (--technique)" : "");
 }
 
-std::string unmet_lights(const Scene& scene, bool simulated) {
+/// `plan`: null for complete simulation.
+std::string unmet_lights(const Scene& scene, const RenderPlan* plan) {
     const bool any = std::ranges::any_of(scene.lights, &Light::is_delta);
     const std::vector<std::uint32_t> shapes =
         shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
-            if (!any || !refracts_smoothly(s) || (!simulated && s.subsurface)) return false;
+            if (!any || !refracts_smoothly(s) || (plan && plan->has_technique(i))) return false;
             // Matter is lit from within; clear glass does not let a lamp inside shine out.
-            return !(simulated && s.interior) || is_lit_from_points(scene, i);
+            return !(!plan && s.interior) || is_lit_from_points(scene, i);
         });
     if (shapes.empty()) return "";
     const bool translucent = std::ranges::any_of(
@@ -109,24 +107,24 @@ std::string unmet_lights(const Scene& scene, bool simulated) {
 }  // namespace
 
 std::vector<std::string> missing_in_simulation(const Scene& scene) {
-    const std::string text = unmet_lights(scene, true);
+    const std::string text = unmet_lights(scene, nullptr);
     return text.empty() ? std::vector<std::string>{} : std::vector{text};
 }
 
-std::vector<std::string> missing_light(const Scene& scene) {
-    if (is_simulated(scene)) return missing_in_simulation(scene);
+std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& plan) {
+    if (plan.is_simulation()) return missing_in_simulation(scene);
     std::vector<std::string> result;
-    if (std::string text = unseen_media(scene); !text.empty()) result.push_back(std::move(text));
+    if (std::string text = unseen_media(scene, plan); !text.empty()) result.push_back(std::move(text));
     // Recursive ray tracing and what came before it never had caustics.
-    if (scene.integrator.type == "path")
-        if (std::string text = unmet_lights(scene, false); !text.empty())
+    if (plan.integrator == "path")
+        if (std::string text = unmet_lights(scene, &plan); !text.empty())
             result.push_back(std::move(text));
     return result;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene) {
+std::vector<std::string> warnings_of(const Scene& scene, const RenderPlan& plan) {
     std::vector<std::string> result = scene.warnings;
-    for (std::string& text : missing_light(scene)) result.push_back(std::move(text));
+    for (std::string& text : missing_light(scene, plan)) result.push_back(std::move(text));
     return result;
 }
 

@@ -1,6 +1,6 @@
 // Interpolated normals that face away from the viewer: no black rims in a white furnace.
 #include "nacre/render/shading_normal.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 namespace {
@@ -82,26 +82,28 @@ class ShadingNormals : public Techniques {
     }
     /// Parallel rays of a picture of side x side pixels over 30 mm, from above: those that meet
     /// something, each radiance the mean of `samples`; not a number where they meet nothing.
-    std::vector<double> picture(const Scene& s, int side, int samples) {
-        const auto integrator = make_technique_integrator(s);
+    std::vector<double> picture(const Scene& s, const RenderPlan& plan, int side, int samples) {
         const Vec3f d = normalize(Vec3f{-0.3f, -0.45f, -0.84f});
-        const Framef frame = Framef::around(d);
-        std::vector<double> result(std::size_t(side) * side, std::nan(""));
-        const Sampler prototype(Sampler::Kind::independent, 5, samples);
-        tbb::parallel_for(0, side * side, [&](int i) {
-            const float x = 30.f * ((float(i % side) + 0.5f) / float(side) - 0.5f),
-                        y = 30.f * ((float(i / side) + 0.5f) / float(side) - 0.5f);
-            const Ray ray{Point3f{} + frame.to_world({x, y, -60.f}), d};
-            if (!s.rays.intersect(ray)) return;
-            Sampler sampler = prototype;
-            RayCounts counts;
-            double sum = 0;
-            for (int k = 0; k < samples; ++k) {
-                sampler.start(std::uint64_t(i), std::uint32_t(k));
-                sum += integrator->radiance(ray, sampler, Wavelengths::rgb_bands(), counts)[1];
-            }
-            result[std::size_t(i)] = sum / samples;
+        const Framef around = Framef::around(d);
+        const auto ray_at = [=](int x, int y) {
+            const auto place = [=](int i) {
+                return 30.f * ((float(i) + 0.5f) / float(side) - 0.5f);
+            };
+            return Ray{Point3f{} + around.to_world({place(x), place(y), -60.f}), d};
+        };
+        FrameSettings frame;
+        frame.film.width = frame.film.height = side;
+        frame.film.filter.type = "box";
+        frame.sampler = {"independent", samples, 5};
+        frame.camera = std::make_shared<RayCamera>([=](Vec2f film, Vec2f) {
+            return ray_at(int(film.x * float(side)), int(film.y * float(side)));
         });
+        const Film film = prepare(s, plan)->render(frame).film;
+        std::vector<double> result;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x)
+                result.push_back(s.rays.intersect(ray_at(x, y)) ? double(film.mean(x, y).y)
+                                                                : std::nan(""));
         return result;
     }
     struct Object {
@@ -124,16 +126,16 @@ class ShadingNormals : public Techniques {
 TEST_F(ShadingNormals, MakeNoDarkPixelUnderAnyTechnique) {
     constexpr int side = 24, samples = 64;
     for (const Object& object : objects())
-        for (const TechniqueDescription& t : techniques()) {
-            if (!t.make) continue;
+        for (const TechniqueDescription* t : techniques()) {
+            if (!t->below) continue;
             const Scene s =
                 scene(xml::integrator("path") + xml::constant_light() +
-                      mesh(object.mesh, white(std::string(t.name)), object.face_normals));
+                      mesh(object.mesh, white(std::string(t->name)), object.face_normals));
             int seen = 0;
-            for (const double v : picture(s, side, samples)) {
+            for (const double v : picture(s, plan_of(s), side, samples)) {
                 if (std::isnan(v)) continue;
                 ++seen;
-                EXPECT_GT(v, 0.5) << object.name << ", " << t.name;
+                EXPECT_GT(v, 0.5) << object.name << ", " << t->name;
             }
             EXPECT_GT(seen, 100) << object.name;
         }
@@ -147,10 +149,9 @@ TEST_F(ShadingNormals, MakeNoDarkPixelBehindRoughBoundaries) {
         xml::medium("interior", xml::number("sigma_s", 4) + xml::number("sigma_a", 0.0002));
     for (const Object& object : objects())
         for (const char* technique : {"brdf", "surface"}) {
-            Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                            mesh(object.mesh, inside, object.face_normals));
-            choose_technique(s, {technique});
-            for (const double v : picture(s, 24, 128))
+            const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                                  mesh(object.mesh, inside, object.face_normals));
+            for (const double v : picture(s, plan_of(s, {technique}), 24, 128))
                 EXPECT_FALSE(v < 0.5) << v << " " << object.name << ", " << technique;
         }
 }
@@ -176,7 +177,7 @@ TEST_F(ShadingNormals, MakeNoBlackPixelOnOpaqueObjects) {
                 const Scene s =
                     scene(xml::integrator(integrator) + xml::constant_light() +
                           mesh(object.mesh, xml::bsdf(m.type, m.inside), object.face_normals));
-                for (const double v : picture(s, 20, 400))
+                for (const double v : picture(s, plan_of(s), 20, 400))
                     EXPECT_FALSE(v < m.least) << v << " " << object.name << ", " << m.type;
             }
 }

@@ -1,6 +1,7 @@
-#include "nacre/render/surface_sampling.h"
+#include "nacre/subsurface/surface_sampling.h"
 
 #include "nacre/math/fast.h"
+#include "nacre/technique/common_parameters.h"
 
 namespace nacre {
 
@@ -82,6 +83,42 @@ Translucency::Emergence SurfaceSampling::emerge(const SurfacePoint& exit, const 
     }
     result.weight = chosen * Spectral(total * exit_scale_);
     return result;
+}
+
+TranslucencyPtr SurfaceSampling::relit() const {
+    if (!single_) return nullptr;
+    auto same = std::make_shared<SurfaceSampling>(*this);
+    same->single_ = std::make_shared<SingleScatteringTerm>(scene_, shape_, boundary());
+    return same;
+}
+
+/// In the list of techniques/techniques.cpp.
+const TechniqueDescription& surface_sampling_technique() {
+    static const TechniqueDescription description{
+        .name = "surface",
+        .title = "BSSRDF by surface sampling",
+        .authors = "H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan; A. King, C. Kulla, A. "
+                   "Conty, M. Fajardo",
+        .year = 2001,
+        .paper = "A Practical Model for Subsurface Light Transport, SIGGRAPH 2001; BSSRDF "
+                 "Importance Sampling, SIGGRAPH Talks 2013",
+        .how = "for each exit one point of entry around it, drawn by probe rays after the profile",
+        .precomputes = "tables of the profile",
+        .keeps = {.view = true, .light = true},
+        .parameters = {profile_parameter(), exit_fresnel_parameter(),
+                       single_scattering_parameter()},
+        // The six Gaussians are those of skin whatever the medium: only who asks for them gets
+        // them.
+        .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
+                    "profile=photon_beam_diffusion|profile=normalised_diffusion|profile=multipole",
+        .prepare = prepare_path_technique,
+        .below = [](const ShapeInput& in) -> TranslucencyPtr {
+            const auto tables = profile_tables(in);
+            return std::make_shared<SurfaceSampling>(
+                in.scene, in.shape, in.boundary, tables, exit_scale(in),
+                single_scattering_of(in, tables->includes_single_scattering()));
+        }};
+    return description;
 }
 
 }  // namespace nacre

@@ -9,8 +9,8 @@
 // have found it; one of them is taken in proportion to its weight (resampling), so no part of the
 // surface is out of reach and nothing is cut off.
 #include "nacre/render/profile_tables.h"
-#include "nacre/render/single_scattering.h"
-#include "nacre/render/translucency.h"
+#include "nacre/subsurface/single_scattering.h"
+#include "nacre/technique/technique.h"
 
 namespace nacre {
 
@@ -25,6 +25,8 @@ class SurfaceSampling final : public Translucency {
     Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                      const Wavelengths& wavelengths, RayCounts& counts) const override;
 
+    TranslucencyPtr relit() const override;
+
   private:
     const Scene& scene_;
     std::uint32_t shape_;
@@ -32,24 +34,6 @@ class SurfaceSampling final : public Translucency {
     float exit_scale_;
     std::shared_ptr<const SingleScatteringTerm> single_;
     float reach_;  // of probe rays: the object's diameter
-};
-
-/// The medium as a surface: all light leaves where it came in. What a BRDF can do for translucent
-/// matter: Lambert's law with the profile's total, below the same boundary.
-class LocalReflection final : public Translucency {
-  public:
-    LocalReflection(const ObjectBoundary& boundary, std::shared_ptr<const ProfileTables> profile,
-                    float exit_scale)
-        : Translucency(boundary), profile_(std::move(profile)), exit_scale_(exit_scale) {}
-
-    Emergence emerge(const SurfacePoint& exit, const Vec3f&, Sampler&, const Wavelengths& w,
-                     RayCounts&) const override {
-        return {Spectral(0.f), exit, profile_->total(w) * Spectral(exit_scale_)};
-    }
-
-  private:
-    std::shared_ptr<const ProfileTables> profile_;
-    float exit_scale_;
 };
 
 }  // namespace nacre

@@ -1,10 +1,11 @@
-#include "nacre/render/single_scattering.h"
+#include "nacre/subsurface/single_scattering.h"
 
 #include <algorithm>
 
 #include "nacre/bssrdf/single_scattering.h"
 #include "nacre/render/path_state.h"
 #include "nacre/render/path_tracer.h"
+#include "nacre/technique/common_parameters.h"
 
 namespace nacre {
 
@@ -63,6 +64,15 @@ Spectral SingleScatteringTerm::radiance(const SurfacePoint& exit, const Vec3f& w
     const float through = boundary_.transmittance(cos_i) / (eta_ * eta_) * cos_i / mu_i;
     return lanes.sigma_t * lanes.albedo * transmittance * lanes.transmittance(s_i) * kept *
            light.radiance * Spectral(phase * through / (density * light.pdf * choice.probability));
+}
+
+std::shared_ptr<const SingleScatteringTerm> single_scattering_of(const ShapeInput& in,
+                                                                 bool profile_includes_it) {
+    const auto choice = in.options.choice<SingleScatteringChoice>("single_scattering");
+    if (choice == SingleScatteringChoice::off ||
+        (choice == SingleScatteringChoice::automatic && profile_includes_it))
+        return nullptr;
+    return std::make_shared<SingleScatteringTerm>(in.scene, in.shape, in.boundary);
 }
 
 }  // namespace nacre

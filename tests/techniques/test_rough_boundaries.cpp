@@ -2,7 +2,7 @@
 #include "nacre/optics/fresnel_moments.h"
 #include "nacre/reflectance/rough_boundary.h"
 #include "nacre/render/object_boundary.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 namespace {
@@ -22,9 +22,7 @@ class RoughBoundaries : public Techniques {
     RadianceEstimate by(const std::string& technique, const std::string& body, const RayMaker& rays,
                         const EstimateOptions& options,
                         const std::vector<std::pair<std::string, std::string>>& settings = {}) {
-        Scene s = scene(xml::integrator("path") + body);
-        choose_technique(s, {technique, "", settings});
-        return look(s, rays, options);
+        return look(scene(xml::integrator("path") + body), {technique, settings}, rays, options);
     }
 };
 
@@ -69,17 +67,15 @@ TEST_F(RoughBoundaries, OfWhiteObjectsInEvenLightAreAsBrightAsSimulated) {
             EXPECT_LT(truth.back().error[1], 0.003);
         }
         for (const char* technique : {"brdf", "hanrahan_krueger", "surface", "two_pass"}) {
-            Scene s = scene(xml::integrator("path") + light + slab(30, white));
+            const Scene s = scene(xml::integrator("path") + light + slab(30, white));
             TechniqueChoice choice{technique};
             if (choice.technique == "two_pass")
                 choice.options = {
                     {"spacing", "2"}, {"irradiance_samples", "64"}, {"error", "0.05"}};
-            choose_technique(s, choice);
-            const auto integrator = make_technique_integrator(s);
+            const TechniquePtr prepared = prepare(s, plan_of(s, choice));
             for (std::size_t i = 0; i < std::size(directions); ++i) {
-                const RadianceEstimate e =
-                    estimate(s, *integrator, onto_the_middle(directions[i], 5),
-                             {.pixels = 400, .samples = 64});
+                const RadianceEstimate e = estimate(*prepared, onto_the_middle(directions[i], 5),
+                                                    {.pixels = 400, .samples = 64});
                 EXPECT_NEAR(e.mean[1], truth[i].mean[1],
                             4.5 * std::hypot(e.error[1], truth[i].error[1]) + 0.01)
                     << technique << " alpha " << alpha << " direction " << i;

@@ -1,7 +1,7 @@
 #pragma once
 // What the tests of the techniques share: slabs of a coloured medium and looks at them.
 #include "nacre/bssrdf/medium.h"
-#include "nacre/subsurface/technique.h"
+#include "nacre/techniques/techniques.h"
 #include "tests/render/render_fixture.h"
 
 namespace nacre {
@@ -40,10 +40,47 @@ inline ProfileMedium medium(int c) {
     return {s[c], a[c], 0., eta};
 }
 
+/// Any rays as a camera's, from the place on the film and the one on the lens.
+class RayCamera final : public Camera {
+  public:
+    using Maker = std::function<Ray(Vec2f film, Vec2f lens)>;
+    explicit RayCamera(Maker maker) : maker_(std::move(maker)) {}
+    Ray ray(Vec2f film, Vec2f lens) const override { return maker_(film, lens); }
+
+  private:
+    Maker maker_;
+};
+
+/// A frame of `pixels` independent estimates along such rays.
+inline FrameSettings frame_of(const RayMaker& rays, const EstimateOptions& options) {
+    FrameSettings frame;
+    frame.camera =
+        std::make_shared<RayCamera>([rays](Vec2f, Vec2f lens) { return rays(lens); });
+    frame.film.width = options.pixels;
+    frame.film.height = 1;
+    frame.film.filter.type = "box";
+    frame.sampler = {options.sampler, options.samples, options.seed};
+    return frame;
+}
+
+inline RadianceEstimate estimate(Technique& technique, const RayMaker& rays,
+                                 const EstimateOptions& options = {}) {
+    const RenderResult r = technique.render(frame_of(rays, options));
+    EXPECT_EQ(r.film.invalid_count(), 0u);
+    std::vector<Vec3d> means;
+    for (int x = 0; x < options.pixels; ++x) means.emplace_back(r.film.mean(x, 0));
+    return RadianceEstimate::of(std::move(means));
+}
+
 class Techniques : public RenderTest {
   protected:
+    /// As the scene says.
     RadianceEstimate look(const Scene& s, const RayMaker& rays, EstimateOptions options = {}) {
-        return estimate(s, *make_technique_integrator(s), rays, options);
+        return estimate(*prepare(s, plan_of(s)), rays, options);
+    }
+    RadianceEstimate look(const Scene& s, const TechniqueChoice& choice, const RayMaker& rays,
+                          EstimateOptions options = {}) {
+        return estimate(*prepare(s, plan_of(s, choice)), rays, options);
     }
 };
 

@@ -1,12 +1,12 @@
 // What half spaces behind rough boundaries return, beside quadrature and complete simulation.
-#include "nacre/subsurface/rough_half_space.h"
+#include "nacre/technique/rough_half_space.h"
 
 #include "nacre/math/quadrature.h"
 #include "nacre/math/sampling.h"
 #include "nacre/optics/fresnel_moments.h"
 #include "nacre/reflectance/ggx.h"
 #include "nacre/subsurface/random_walk.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 namespace {
@@ -42,10 +42,9 @@ class RoughHalfSpaces : public Techniques {
             const Vec3f d = square_to_cosine_hemisphere(u);
             return Ray{Point3f{} + d * 40.f, -d};
         };
-        Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                        slab(12, boundary(alpha) + inside));
-        choose_technique(s, {technique});
-        const RadianceEstimate e = look(s, from_everywhere, options);
+        const Scene s = scene(xml::integrator("path") + xml::constant_light() +
+                              slab(12, boundary(alpha) + inside));
+        const RadianceEstimate e = look(s, {technique}, from_everywhere, options);
         const ObjectBoundary b = ObjectBoundary::of(s.shapes[0]);
         const double enters = b.mean_transmittance();
         return {(e.mean[1] - b.mean_reflectance()) / enters, e.error[1] / enters};

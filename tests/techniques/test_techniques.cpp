@@ -2,9 +2,8 @@
 #include "nacre/bssrdf/dipole.h"
 #include "nacre/bssrdf/profile.h"
 #include "nacre/bssrdf/single_scattering.h"
-#include "nacre/render/single_scattering.h"
-#include "nacre/subsurface/technique.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "nacre/subsurface/single_scattering.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 
@@ -178,82 +177,6 @@ TEST_F(Techniques, OneOptionSwitchesToCompleteSimulation) {
         return look(s, onto_the_middle({0, 0, 1}, 10), {.pixels = 20, .samples = 8}).mean;
     };
     EXPECT_EQ(look_by("path", "volpath"), look_by("volpath", "two_pass"));
-}
-
-TEST_F(Techniques, ChooseByName) {
-    Scene s = scene(xml::integrator("volpath") + xml::constant_light() +
-                    slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients)));
-    for (const TechniqueDescription& t : techniques()) {
-        choose_technique(s, {std::string(t.name)});
-        EXPECT_EQ(s.integrator.type, t.make ? "path" : "volpath");
-        EXPECT_NO_THROW(make_technique_integrator(s)) << t.name;
-    }
-}
-
-TEST_F(Techniques, VariantsAreChoices) {
-    const std::string body = xml::integrator("volpath") + xml::constant_light() +
-                             slab(1, xml::dielectric(eta) + xml::medium("interior", coefficients));
-    for (const TechniqueDescription& t : techniques()) {
-        const std::vector<TechniqueChoice> variants = variants_of(t);
-        EXPECT_EQ(variants.size(), 1 + std::ranges::count(t.variants, '|')) << t.name;
-        for (const TechniqueChoice& v : variants) {
-            Scene s = scene(body);
-            EXPECT_EQ(v.technique, t.name);
-            EXPECT_NO_THROW(choose_technique(s, v)) << t.name;
-            EXPECT_NO_THROW(make_technique_integrator(s)) << t.name << v.profile;
-            if (!t.make || v.profile.empty()) continue;
-            EXPECT_EQ(s.shapes[0].subsurface->profile, v.profile);
-        }
-    }
-    TechniqueDescription some = find_technique("surface");
-    some.variants = "a=1 profile=x b=c|profile=y";
-    const std::vector<TechniqueChoice> variants = variants_of(some);
-    ASSERT_EQ(variants.size(), 2u);
-    EXPECT_EQ(variants[0].profile, "x");
-    const std::vector<std::pair<std::string, std::string>> options{{"a", "1"}, {"b", "c"}};
-    EXPECT_EQ(variants[0].options, options);
-    EXPECT_EQ(variants[1].profile, "y");
-    EXPECT_TRUE(variants[1].options.empty());
-    // Two passes by three sizes of groups.
-    EXPECT_EQ(variants_of(find_technique("two_pass")).back().options[0].second, "0.05");
-}
-
-TEST_F(Techniques, SayWhatTheyCannotDo) {
-    const auto message = [&](const std::string& profile, const std::string& options) {
-        return error_of([&] {
-            const Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                                  slab(1, subsurface(profile, options)));
-            make_technique_integrator(s);
-        });
-    };
-    const std::string place = "scene.xml:4:153";
-    const auto starts = [&](const std::string& text, const std::string& rest) {
-        const std::size_t at = text.find(": ");
-        EXPECT_TRUE(text.starts_with(place)) << text;
-        EXPECT_EQ(text.substr(at + 2, rest.size()), rest) << text;
-    };
-    starts(message("dipole", word("method", "two_passes")),
-           "unknown technique 'two_passes'; did you mean 'two_pass'?");
-    starts(message("dipol", word("method", "surface")),
-           "unknown diffusion profile 'dipol'; did you mean 'dipole'?");
-    starts(message("normalised_diffusion", word("method", "two_pass")),
-           "technique 'two_pass' takes the profiles dipole and better_dipole, not "
-           "'normalised_diffusion'");
-    // Of several shapes: the message behind the place.
-    const auto of_scene = [&](const std::string& shapes) {
-        const std::string text = error_of([&] {
-            make_technique_integrator(
-                scene(xml::integrator("path") + xml::constant_light() + shapes));
-        });
-        return text.substr(text.find(": ") + 2);
-    };
-    EXPECT_EQ(of_scene(xml::shape("rectangle", subsurface("dipole", ""))),
-              "'rectangle' is flat: it has no inside for light to be scattered in; give it a "
-              "thickness");
-    EXPECT_EQ(of_scene(slab(1, subsurface("dipole", word("method", "brdf"))) +
-                       slab(1, subsurface("dipole", word("method", "volpath")))),
-              "'volpath' simulates the whole scene: give all translucent shapes this method, or "
-              "none");
 }
 
 }  // namespace nacre

@@ -5,7 +5,7 @@
 #include "nacre/bssrdf/dipole.h"
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/math/quadrature.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "nacre/subsurface/rough_half_space.h"
+#include "nacre/technique/rough_half_space.h"
 
 #include <tbb/parallel_for.h>
 

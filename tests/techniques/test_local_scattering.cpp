@@ -7,7 +7,7 @@
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/math/quadrature.h"
 #include "nacre/optics/fresnel_moments.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 

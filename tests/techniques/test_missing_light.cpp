@@ -1,6 +1,6 @@
 // What is said of light that an integrator cannot find.
-#include "nacre/subsurface/missing_light.h"
-#include "tests/subsurface/technique_fixture.h"
+#include "nacre/techniques/missing_light.h"
+#include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
 namespace {
@@ -96,7 +96,10 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
         {"a technique in the sun", integrator("path") + sun + named("a", marble), {}},
         {"a lamp inside", integrator("volpath") + lamp_inside + named("a", jade), {}},
     };
-    for (const auto& c : cases) EXPECT_EQ(missing_light(scene(c.body)), c.said) << c.what;
+    for (const auto& c : cases) {
+        const Scene s = scene(c.body);
+        EXPECT_EQ(missing_light(s, plan_of(s)), c.said) << c.what;
+    }
 }
 
 TEST_F(MissingLight, OfTheCamerasMedium) {
@@ -104,7 +107,7 @@ TEST_F(MissingLight, OfTheCamerasMedium) {
                           "<sensor type=\"perspective\"><medium name=\"medium\" "
                           "type=\"homogeneous\">" +
                           grey + "</medium></sensor>\n" + named("a", xml::bsdf("diffuse")));
-    EXPECT_EQ(missing_light(s),
+    EXPECT_EQ(missing_light(s, plan_of(s)),
               std::vector<std::string>{
                   "integrator 'path' does not see the medium around the camera: the picture is as "
                   "if it were not there; use --integrator volpath"});
@@ -114,10 +117,10 @@ TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
     Scene s = scene(xml::integrator("path") + xml::constant_light() +
                     named("a", xml::bsdf("null") + matter));
     s.warnings = {"first"};
-    const std::vector<std::string> all = warnings_of(s);
+    const std::vector<std::string> all = warnings_of(s, plan_of(s));
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0], "first");
-    EXPECT_EQ(all[1], missing_light(s)[0]);
+    EXPECT_EQ(all[1], missing_light(s, plan_of(s))[0]);
 }
 
 TEST_F(MissingLight, MakesNoTruth) {
