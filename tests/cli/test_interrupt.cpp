@@ -120,19 +120,19 @@ TEST_F(Interrupt, AdviceOnTheSpacingIsInItsUnit) {
 TEST_F(Interrupt, WhatATechniqueDoesNotHaveIsRefused) {
     const std::pair<const char*, const char*> cases[] = {
         {"--technique random_walk --profile dipole",
-         "technique 'random_walk' has no profile: leave out 'dipole'"},
+         "random_walk: unknown parameter 'profile'; known are: exit_fresnel, free_path"},
         {"--technique volpath --profile dipole",
-         "technique 'volpath' has no profile: leave out 'dipole'"},
+         "volpath: it has no parameter 'profile', nor any other"},
         {"--technique volpath --set spacing=2",
-         "technique 'volpath' has no option 'spacing'; it has none"},
+         "volpath: it has no parameter 'spacing', nor any other"},
         {"--technique brdf --set error=0.1",
-         "technique 'brdf' has no option 'error'; it has: exit_fresnel"},
+         "brdf: unknown parameter 'error'; known are: profile, exit_fresnel"},
         {"--technique two_pass --set spacing=nan",
-         "option 'spacing' = nan must be a number within [0.01, 100]"},
+         "two_pass: spacing = nan is out of range: must lie within [0.01, 100]"},
         {"--technique two_pass --set spacing=1.2.3",
-         "option 'spacing' = 1.2.3 must be a number within [0.01, 100]"},
+         "two_pass: spacing = '1.2.3' must be a number within [0.01, 100]"},
         {"--technique two_pass --set irradiance_samples=4294967297",
-         "option 'irradiance_samples' = 4294967297 must be a whole number within [1, 65536]"},
+         "two_pass: irradiance_samples = 4294967297 is out of range: must lie within [1, 65536]"},
     };
     for (const auto& [options, message] : cases) {
         const Outcome r = nacre(fmt::format("render cube.obj {}", options));

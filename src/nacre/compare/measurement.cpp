@@ -23,14 +23,14 @@ Image picture_of(const Film& film) {
 
 void measure_into(Measurement& m, const Scene& scene, const TechniqueSetting& setting,
                   const MeasurementOptions& options) {
-    const RenderPlan plan = plan_of(scene, setting.choice);
+    RenderPlan plan = plan_of(scene, setting.choice);
     FrameSettings frame = FrameSettings::of(scene);
     frame.sampler.samples = setting.samples;
     const PeakMemory memory;
     std::vector<Image> frames;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
         if (options.stop && options.stop->load()) return;
-        frame.sampler.seed = frame_seed(options.seed, repeat);
+        plan.seed = frame.sampler.seed = frame_seed(options.seed, repeat);
         RenderOptions render_options;
         render_options.threads = options.threads;
         render_options.stop = options.stop;

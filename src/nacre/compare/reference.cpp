@@ -129,10 +129,11 @@ double block_standard_error(const Image& picture, const Image& variance, const P
     return std::sqrt(m.block.mean_square.noise.value_or(0.));
 }
 
-Reference make_reference(const Scene& scene, const PixelMask& mask, const ReferenceOptions& options) {
+Reference make_reference(const Scene& scene, const PixelMask& mask,
+                         const ReferenceOptions& options) {
     if (!(options.error > 0)) throw InputError("the error of a reference must be positive");
     if (techniques().find(options.technique.technique).simulates) require_lit_insides(scene);
-    const RenderPlan plan = plan_of(scene, options.technique);
+    RenderPlan plan = plan_of(scene, options.technique);
     FrameSettings frame = FrameSettings::of(scene);
     frame.sampler.type = "independent";  // whose variance is known
     const TechniqueSetting setting{options.technique, 0};
@@ -170,7 +171,7 @@ Reference make_reference(const Scene& scene, const PixelMask& mask, const Refere
                               std::max(16., double(sum.samples)));
         if (wall_per_sample > 0) n = std::min(n, std::max(4., round_seconds / wall_per_sample));
         frame.sampler.samples = int(n);
-        frame.sampler.seed = stream_key(reference_stream, std::uint64_t(sum.count));
+        plan.seed = frame.sampler.seed = stream_key(reference_stream, std::uint64_t(sum.count));
         RenderOptions render_options;
         render_options.threads = options.threads;
         render_options.stop = options.stop;

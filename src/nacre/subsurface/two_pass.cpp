@@ -91,8 +91,7 @@ ShapePoints spread_points(const ShapeInput& in, const TwoPassOptions& own, doubl
     options.elimination.candidates = elimination_candidates;
     check_spacing(own, AreaSampler(*mesh).area(), free_path);
     const SurfacePointSet set =
-        points_for_spacing(*mesh, own.spacing * free_path, own.points, in.scene.sampler.seed,
-                           options, in.work);
+        points_for_spacing(*mesh, own.spacing * free_path, own.points, in.seed, options, in.work);
     ShapePoints result;
     result.area = set.area;
     for (std::size_t i = 0; i < set.p.size(); ++i) {
@@ -111,7 +110,7 @@ std::vector<float> power_at(const ShapeInput& in, const ShapePoints& points, int
     const EntryLobe entry(in.boundary);
     const int groups = bands.groups(), samples = std::max(1, paths / groups);
     std::vector<float> power(points.p.size() * std::size_t(bands.count()));
-    const Sampler prototype(Sampler::Kind::sobol, in.scene.sampler.seed + 1, samples);
+    const Sampler prototype(Sampler::Kind::sobol, in.seed + 1, samples);
     WorkPhase phase(in.work, "irradiance",
                     points.p.size() * std::size_t(groups) * std::size_t(samples));
     tbb::parallel_for(std::size_t(0), points.p.size(), [&](std::size_t i) {
@@ -247,13 +246,16 @@ const TechniqueDescription& two_pass_technique() {
         .title = "two-pass hierarchy",
         .authors = "H. W. Jensen, J. Buhler",
         .year = 2002,
-        .paper = "A Rapid Hierarchical Rendering Technique for Translucent Materials, SIGGRAPH "
-                 "2002",
-        .how = "irradiance at points spread over the surface, then for each exit a sum over the "
-               "points, far ones in groups",
+        .paper =
+            "A Rapid Hierarchical Rendering Technique for Translucent Materials, SIGGRAPH "
+            "2002",
+        .how =
+            "irradiance at points spread over the surface, then for each exit a sum over the "
+            "points, far ones in groups",
         .precomputes = "surface points, irradiance, hierarchy",
         .keeps = {.view = true},
-        .parameters = {profile_parameter({"dipole", "better_dipole"}), exit_fresnel_parameter(),
+        .parameters = {profile_parameter({"dipole", "better_dipole"}),
+                       exit_fresnel_parameter(),
                        single_scattering_parameter(),
                        {.name = "spacing",
                         .meaning = "of surface points, in transport mean free paths of the densest "

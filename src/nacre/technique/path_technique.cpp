@@ -50,7 +50,7 @@ TranslucencyPtr make_stand_in(const ShapeInput& in) {
 class PathTechnique final : public Technique {
   public:
     PathTechnique(const TechniqueInput& input, const Work& work)
-        : scene_(input.scene), shapes_(input.shapes) {
+        : scene_(input.scene), shapes_(input.shapes), seed_(input.seed) {
         prepare({}, work);
     }
 
@@ -98,7 +98,7 @@ class PathTechnique final : public Technique {
         return at_place(shape, [&] {
             refuse_flat(i);
             return maker({scene_, i, shape.options, shape.profile, surfaces_[i].boundary,
-                          surfaces_[i].rough_return, light, statistics, work});
+                          surfaces_[i].rough_return, seed_, light, statistics, work});
         });
     }
 
@@ -108,9 +108,10 @@ class PathTechnique final : public Technique {
         const float least = std::min({size.x, size.y, size.z}),
                     most = std::max({size.x, size.y, size.z});
         if (!(least > 1e-6f * most))
-            throw InputError(fmt::format("'{}' is flat: it has no inside for light to be scattered "
-                                         "in; give it a thickness",
-                                         scene_.shapes[i].name));
+            throw InputError(
+                fmt::format("'{}' is flat: it has no inside for light to be scattered "
+                            "in; give it a thickness",
+                            scene_.shapes[i].name));
     }
 
     /// What is between a translucent shape's matter and the rest.
@@ -132,6 +133,7 @@ class PathTechnique final : public Technique {
 
     const Scene& scene_;
     const std::vector<ShapeTechnique> shapes_;
+    const std::uint64_t seed_;
     std::vector<Surface> surfaces_;
     Translucencies matter_;
     std::unique_ptr<PathTracer> tracer_;

@@ -20,6 +20,7 @@ struct ShapeInput {
     /// In each band, the factor of what returns behind a rough boundary (rough_half_space.h); empty
     /// if it is smooth.
     std::span<const double> rough_return;
+    std::uint64_t seed;  ///< of what is drawn before the first frame
     /// Traces paths among surfaces, translucent shapes as local reflectors: for light that falls on
     /// the shape. Null while those are being made.
     const PathTracer* light;

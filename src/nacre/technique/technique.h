@@ -70,6 +70,7 @@ struct ShapeTechnique {
 struct TechniqueInput {
     const Scene& scene;                  ///< outlives the technique
     std::vector<ShapeTechnique> shapes;  ///< one for each shape of the scene
+    std::uint64_t seed = 0;              ///< of what is drawn before the first frame
 };
 
 struct ShapeInput;  // path_technique.h

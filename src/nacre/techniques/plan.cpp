@@ -81,7 +81,7 @@ ShapeTechnique shape_technique(const TechniqueDescription& technique,
 }  // namespace
 
 RenderPlan plan_of(const Scene& scene) {
-    RenderPlan plan{scene.integrator.type, {}};
+    RenderPlan plan{scene.integrator.type, {}, scene.sampler.seed};
     std::size_t translucent = 0, simulated = 0;
     for (const ShapeBinding& shape : scene.shapes) {
         ShapeTechnique& s = plan.shapes.emplace_back();
@@ -103,7 +103,7 @@ RenderPlan plan_of(const Scene& scene) {
 RenderPlan plan_of(const Scene& scene, const TechniqueChoice& wanted) {
     const TechniqueChoice choice = checked(wanted);
     const TechniqueDescription& technique = techniques().find(choice.technique);
-    RenderPlan plan{technique.below ? "path" : choice.technique, {}};
+    RenderPlan plan{technique.below ? "path" : choice.technique, {}, scene.sampler.seed};
     bool any = false;
     for (const ShapeBinding& shape : scene.shapes) {
         ShapeTechnique& s = plan.shapes.emplace_back();

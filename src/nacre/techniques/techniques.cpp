@@ -79,7 +79,7 @@ TechniquePtr prepare(const Scene& scene, const RenderPlan& plan, const Work& wor
             (first ? technique : s.technique)->simulates ? "simulates" : "renders"));
     }
     if (!technique && plan.is_simulation()) technique = &simulation_technique();
-    if (technique) return technique->prepare({scene, plan.shapes}, work);
+    if (technique) return technique->prepare({scene, plan.shapes, plan.seed}, work);
     return std::make_unique<IntegratorTechnique>(
         scene, plan.integrator,
         [type = plan.integrator](const Scene& s, const Work& w) {
@@ -92,10 +92,8 @@ RenderResult render(const Scene& scene, const RenderPlan& plan, const FrameSetti
                     const RenderOptions& options) {
     return prepare_and_render(
         [&](const Work& work) {
-            return [&frame, technique = std::shared_ptr<Technique>(
-                                prepare(scene, plan, work))](const RenderOptions& rest) {
-                return technique->render(frame, rest);
-            };
+            return [&frame, technique = std::shared_ptr<Technique>(prepare(scene, plan, work))](
+                       const RenderOptions& rest) { return technique->render(frame, rest); };
         },
         frame, options);
 }

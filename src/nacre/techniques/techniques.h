@@ -29,6 +29,8 @@ TechniqueChoice checked(const TechniqueChoice& choice);
 struct RenderPlan {
     std::string integrator;  ///< ray, path, volpath, legacy, or the name of a technique of its own
     std::vector<ShapeTechnique> shapes;  ///< one a shape; none where the integrator alone counts
+    /// Of what techniques draw before the first frame (points on surfaces, paths to them).
+    std::uint64_t seed = 0;
 
     bool has_technique(std::uint32_t shape) const {
         return shape < shapes.size() && shapes[shape].technique != nullptr;
@@ -37,7 +39,7 @@ struct RenderPlan {
     bool is_simulation() const { return integrator == "volpath"; }
 };
 
-/// As the scene says: its integrator and, if that is `path`, the techniques of its <subsurface>.
+/// As the scene says: its integrator, its seed and, if that is `path`, the techniques of its <subsurface>.
 /// If all of them are complete simulation, `volpath`. Throws InputError, with the place in the
 /// file, for names and values that no technique knows. Options of other techniques than the
 /// shape's are checked and not heeded: one file serves all.
