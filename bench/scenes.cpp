@@ -53,8 +53,9 @@ std::vector<Query> record_rays(const Scene& scene) {
             if (to.pdf > 0.f && dot(to.wi, at.shading.n) > 0.f)
                 queries.push_back({{at.spawn(to.wi), to.wi, 0.f, to.distance * 0.9999f}, true});
             const Vec3f wo = at.shading.to_local(-ray.d);
-            const auto sample = scene.shapes[hit->shape].material->sample(
-                at, wo, sampler.next1d(), sampler.next2d(), wavelengths);
+            BsdfScratch scratch;
+            const Bsdf& bsdf = scene.shapes[hit->shape].material->at(at, wavelengths, scratch);
+            const auto sample = bsdf.sample(wo, sampler.next1d(), sampler.next2d());
             if (!sample) return;
             const Vec3f d = at.shading.to_world(sample->wi);
             ray = {at.spawn(d), d};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "nacre/scene/build.h"
+#include "tests/support/bound.h"
 
 namespace nacre::test {
 
@@ -57,6 +58,9 @@ inline MaterialPtr material(const SceneNodePtr& n) {
     BuildContext context;
     return make_material(*n, context);
 }
+
+/// It at a point without texture coordinates, in RGB bands.
+inline Bound bound(const SceneNodePtr& n) { return Bound(material(n)); }
 
 /// Builds and returns the message of the error, empty if there is none.
 inline std::string error_of(const SceneNodePtr& n) {

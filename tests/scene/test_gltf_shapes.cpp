@@ -6,6 +6,7 @@
 #include "nacre/spectrum/color.h"
 #include "tests/geometry/gltf_files.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/bound.h"
 
 namespace nacre {
 namespace {
@@ -49,7 +50,7 @@ const std::string GltfShapes::textures =
     R"("textures":[{"source":0,"sampler":0}])";
 
 Spectral facing(const Material& m, const SurfacePoint& at = {}) {
-    return m.eval(at, {0, 0, 1}, {0, 0, 1}, bands);
+    return test::Bound(m, at)->eval({0, 0, 1}, {0, 0, 1});
 }
 std::string dielectric(const std::string& more = "") {
     return R"("pbrMetallicRoughness":{"metallicFactor":0,"baseColorFactor":[0.8,0.5,0.2,1])" +
@@ -67,7 +68,7 @@ TEST_F(GltfShapes, OpaqueOnesHaveTheFormulaOfTheFormat) {
     for (const auto& [c, base] : {std::pair{0, 0.8f}, {1, 0.5f}, {2, 0.2f}})
         EXPECT_NEAR(f[c], 1.008f * base / pi + 0.04f / (4 * pi), 1e-5f);
     // The same from behind.
-    const Spectral behind = matt.shapes[0].material->eval({}, {0, 0, -1}, {0, 0, -1}, bands);
+    const Spectral behind = test::Bound(matt.shapes[0].material)->eval({0, 0, -1}, {0, 0, -1});
     for (int c = 0; c < 3; ++c) EXPECT_EQ(behind[c], f[c]);
 
     const Scene metal = scene(
@@ -108,7 +109,7 @@ TEST_F(GltfShapes, RoughnessIsGreenAndMetalBlue) {
 TEST_F(GltfShapes, AlphaCutsOrBlends) {
     write_row("row.png", {{255, 255, 255, 102}, {255, 255, 255, 204}});
     const auto through = [](const Scene& s, float u) {
-        return s.shapes[0].material->null_transmission(at(u), {0, 0, 1}, bands)[0];
+        return test::Bound(s.shapes[0].material, at(u))->null_transmission({0, 0, 1})[0];
     };
     const std::string picture = dielectric(R"(,"baseColorTexture":{"index":0})");
     const Scene blend = scene(picture + R"(,"alphaMode":"BLEND")", textures);
@@ -168,7 +169,7 @@ TEST_F(GltfShapes, ThinWallsLetLightPassStraightOn) {
                           std::string(glass) + "}");
     EXPECT_EQ(s.shapes[0].interior, nullptr);
     EXPECT_TRUE(s.warnings.empty());
-    const Spectral t = s.shapes[0].material->null_transmission({}, {0, 0, 1}, bands);
+    const Spectral t = test::Bound(s.shapes[0].material)->null_transmission({0, 0, 1});
     // Of index 1.5, all reflections between the faces: 1 - 2 R / (1 + R) = 12/13.
     for (const auto& [c, base] : {std::pair{0, 0.8f}, {1, 0.5f}, {2, 0.2f}})
         EXPECT_NEAR(t[c], base * 12.f / 13.f, 1e-5f);
@@ -179,7 +180,7 @@ TEST_F(GltfShapes, SharesOfGlassAndMetal) {
     const Scene s =
         scene(R"("pbrMetallicRoughness":{"metallicFactor":0.5,"roughnessFactor":0},"extensions":{)"
               R"("KHR_materials_transmission":{"transmissionFactor":0.6}})");
-    const Spectral t = s.shapes[0].material->null_transmission({}, {0, 0, 1}, bands);
+    const Spectral t = test::Bound(s.shapes[0].material)->null_transmission({0, 0, 1});
     EXPECT_NEAR(t[0], 0.3f * 12.f / 13.f, 1e-5f);
     const Scene rough = scene(R"("pbrMetallicRoughness":{"metallicFactor":0.5},"extensions":{)"
                               R"("KHR_materials_transmission":{"transmissionFactor":0.6}})");
@@ -194,7 +195,7 @@ TEST_F(GltfShapes, LeavesPassLightOn) {
         R"(,"extensions":{"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.25,)"
         R"("diffuseTransmissionColorFactor":[1,0.5,0]}})");
     const Material& m = *s.shapes[0].material;
-    const Spectral back = m.eval({}, {0, 0, 1}, {0, 0, -1}, bands), front = facing(m);
+    const Spectral back = test::Bound(m)->eval({0, 0, -1}, {0, 0, 1}), front = facing(m);
     for (const auto& [c, color, base] :
          {std::tuple{0, 1.f, 0.8f}, {1, 0.5f, 0.5f}, {2, 0.f, 0.2f}}) {
         EXPECT_NEAR(back[c], 0.25f * color * 1.008f / pi, 1e-5f);

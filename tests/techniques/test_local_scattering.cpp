@@ -7,6 +7,7 @@
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/math/quadrature.h"
 #include "nacre/optics/fresnel_moments.h"
+#include "tests/support/bound.h"
 #include "tests/techniques/technique_fixture.h"
 
 namespace nacre {
@@ -111,13 +112,13 @@ TEST_F(Techniques, SamplesOfLocalScatteringHaveTheDensityThatItSays) {
     const Scene s =
         scene(xml::integrator("path") + xml::constant_light() + half_space("better_dipole"));
     const Medium& inside = *s.shapes[0].interior;
-    const Wavelengths w = Wavelengths::rgb_bands();
     const LocalScatteringLobe lobe(
         inside, std::make_shared<ProfileTables>(inside, eta, "better_dipole", Bands(s.mode)), eta,
         1.f, {});
     SurfacePoint at;
     at.ng = {0, 0, 1};
     const Vec3f wo{0.6f, 0.f, 0.8f};
+    const test::Bound bsdf(lobe, at);
     // Mean and mean square of a cosine over the density, against the same by samples.
     double density = 0., moment = 0.;
     const GaussLegendre rule(64);
@@ -127,7 +128,7 @@ TEST_F(Techniques, SamplesOfLocalScatteringHaveTheDensityThatItSays) {
             return rule.integrate(0., 1., [&](double z) {
                 const double r = std::sqrt(1. - z * z);
                 const Vec3f wi{float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)};
-                return f(wi) * lobe.pdf(at, wo, wi, w);
+                return f(wi) * bsdf->pdf(wi, wo);
             });
         };
         density += 2. * pi / 128 * integral([](const Vec3f&) { return 1.; });
@@ -137,9 +138,9 @@ TEST_F(Techniques, SamplesOfLocalScatteringHaveTheDensityThatItSays) {
     std::vector<Vec3d> found;
     for (int i = 0; i < 200'000; ++i) {
         const float u = random.next();
-        const auto sample = lobe.sample(at, wo, u, random.next2(), w);
+        const auto sample = bsdf->sample(wo, u, random.next2());
         if (sample) {
-            const Spectral f = lobe.eval(at, wo, sample->wi, w);
+            const Spectral f = bsdf->eval(sample->wi, wo);
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(sample->weight[c] * sample->pdf, f[c], 1e-5 * f[c]);
         }

@@ -13,12 +13,14 @@ Vec3f mean_albedo(const Material& material) {
     at.ng = {0.f, 0.f, 1.f};
     at.shading = Framef::around(at.ng);
     at.uv = {0.5f, 0.5f};
+    BsdfScratch scratch;
+    const Bsdf& bsdf = material.at(at, w, scratch);
     Vec3d sum{};
     for (int i = 0; i < samples; ++i) {
         sampler.start(0, std::uint32_t(i));
         const Vec3f wo = square_to_cosine_hemisphere(sampler.next2d());
         const float u1 = sampler.next1d();
-        const auto s = material.sample(at, wo, u1, sampler.next2d(), w);
+        const auto s = bsdf.sample(wo, u1, sampler.next2d());
         if (s && s->wi.z > 0.f) sum += Vec3d(s->weight[0], s->weight[1], s->weight[2]);
     }
     const Vec3f mean(sum * (1.0 / samples));

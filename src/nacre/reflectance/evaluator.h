@@ -2,12 +2,14 @@
 // A model behind one interface, whatever its type: `Evaluator` takes the values of its parameters
 // as a flat list in the order of its description, so that who evaluates (a material with textures,
 // a table, a fit) needs to know nothing else. `EvaluatorOf` (evaluator_of.h) makes one of a model.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
 
 #include "nacre/math/lanes.h"
 #include "nacre/math/vec.h"
+#include "nacre/reflectance/bsdf.h"
 #include "nacre/reflectance/description.h"
 
 namespace nacre {
@@ -19,9 +21,17 @@ inline constexpr int max_parameters = 32;
 /// type of a member does not tell then which it is; `set_scalar` sees to it.
 template <class C, class S>
 struct Values {
-    std::array<C, max_parameters> color{};
-    std::array<S, max_parameters> scalar{};
-    std::array<int, max_parameters> option{};
+    std::array<C, max_parameters> color;
+    std::array<S, max_parameters> scalar;
+    std::array<int, max_parameters> option;
+
+    Values() : color{}, scalar{}, option{} {}
+    /// The first n of another, for a model with as many parameters.
+    Values(const Values& other, int n) {
+        std::copy_n(other.color.begin(), n, color.begin());
+        std::copy_n(other.scalar.begin(), n, scalar.begin());
+        std::copy_n(other.option.begin(), n, option.begin());
+    }
 
     void set_color(int i, C value) { color[i] = value; }
     void set_scalar(int i, S value) {
@@ -55,16 +65,17 @@ class Evaluator {
     /// Draws wi; u1 in [0, 1) chooses the lobe. It may lie below the horizon: that sample is lost.
     virtual Vec3f sample(const ValuesS& values, const Vec3f& wo, float u1, Vec2f u2) const = 0;
     /// Density of `sample`, sr^-1.
-    virtual float pdf(const ValuesS& values, const Vec3f& wi, const Vec3f& wo) const = 0;
     virtual double pdf(const ValuesD& values, const Vec3d& wi, const Vec3d& wo) const = 0;
+
+    /// The model with these values, prepared, as a surface that is black from below: its mirror
+    /// part, if there is one, a delta component beside the rest.
+    virtual const Bsdf& bind(const ValuesS& values, BsdfScratch& scratch) const = 0;
 
     /// Whether a part of the light is mirrored without blur, beside what `eval` gives.
     virtual bool has_mirror() const = 0;
     /// The share of the light from the mirror direction of wo that is mirrored to wo.
     virtual Spectral mirror(const ValuesS& values, const Vec3f& wo) const = 0;
     virtual double mirror(const ValuesD& values, const Vec3d& wo) const = 0;
-    /// With which probability to follow the mirror direction instead of `sample`.
-    virtual float mirror_probability(const ValuesS& values, const Vec3f& wo) const = 0;
 
     /// The albedo of light that comes from wi, without the mirror part, if a closed form is known.
     virtual std::optional<double> albedo(const ValuesD& values, const Vec3d& wi) const = 0;

@@ -52,6 +52,61 @@ inline Vec3<Wide> load(const Vec3f* v) {
 
 }  // namespace evaluator_detail
 
+/// A model of four wavelengths, set and prepared, as a path meets it.
+template <class Model>
+class ModelBsdf final : public Bsdf {
+  public:
+    explicit ModelBsdf(const Model& model) : model_(model) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        if (!(wo.z > 0.f && wi.z > 0.f)) return Spectral(0.f);
+        return model_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        if (!(wo.z > 0.f && wi.z > 0.f)) return 0.f;
+        return model_.pdf(wi, wo) * (1.f - mirror_probability(wo));
+    }
+    BsdfValue eval_pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        if (!(wo.z > 0.f && wi.z > 0.f)) return {Spectral(0.f), 0.f};
+        return {model_.eval(wi, wo) * wi.z, model_.pdf(wi, wo) * (1.f - mirror_probability(wo))};
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        BsdfSample s;
+        const float mirror = mirror_probability(wo);
+        if constexpr (has_mirror)
+            if (u1 < mirror) {
+                s.wi = {-wo.x, -wo.y, wo.z};
+                s.pdf = mirror;
+                s.delta = true;
+                s.weight = model_.mirror(wo) / mirror;
+                return s;
+            }
+        const float u = (u1 - mirror) / (1.f - mirror);
+        if constexpr (requires { model_.sample(wo, u, u2); })
+            s.wi = model_.sample(wo, u, u2);
+        else
+            s.wi = model_.sample(wo, u2);
+        if (!(s.wi.z > 0.f)) return std::nullopt;
+        s.pdf = model_.pdf(s.wi, wo) * (1.f - mirror);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+
+  private:
+    static constexpr bool has_mirror = requires(const Model& m, Vec3f w) { m.mirror(w); };
+
+    float mirror_probability(const Vec3f& wo) const {
+        if constexpr (requires { model_.mirror_probability(wo); })
+            return model_.mirror_probability(wo);
+        else
+            return (void)wo, 0.f;
+    }
+
+    Model model_;
+};
+
 template <template <class, class, class> class Model>
 class EvaluatorOf final : public Evaluator {
     using Double = Model<double, double, double>;
@@ -113,11 +168,12 @@ class EvaluatorOf final : public Evaluator {
         else
             return model.sample(wo, u2);
     }
-    float pdf(const ValuesS& v, const Vec3f& wi, const Vec3f& wo) const override {
-        return make(v).pdf(wi, wo);
-    }
     double pdf(const ValuesD& v, const Vec3d& wi, const Vec3d& wo) const override {
         return make(v).pdf(wi, wo);
+    }
+
+    const Bsdf& bind(const ValuesS& v, BsdfScratch& scratch) const override {
+        return scratch.make<ModelBsdf<Four>>(make(v));
     }
 
     bool has_mirror() const override {
@@ -135,13 +191,6 @@ class EvaluatorOf final : public Evaluator {
         else
             return (void)v, (void)wo, 0.;
     }
-    float mirror_probability(const ValuesS& v, const Vec3f& wo) const override {
-        if constexpr (requires(const Four& m) { m.mirror_probability(wo); })
-            return make(v).mirror_probability(wo);
-        else
-            return (void)v, (void)wo, 0.f;
-    }
-
     std::optional<double> albedo(const ValuesD& v, const Vec3d& wi) const override {
         if constexpr (requires(const Double& m) { m.albedo(wi); })
             return make(v).albedo(wi);

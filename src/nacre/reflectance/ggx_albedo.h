@@ -58,11 +58,10 @@ class GgxAlbedo {
         using std::sqrt;
         average_ = detail::chebyshev<detail::averages>(
             t.average, S(2) * sqrt(alpha * S(1. / detail::widest)) - S(1));
-        for (int i = 0; i < detail::angles; ++i) {
-            S sum = S(0);
-            for (int k = 0; k < detail::widths; ++k) sum += S(t.albedo[k][i]) * p[k];
-            c_[i] = sum;
-        }
+        // All sums side by side: the compiler makes packs of them.
+        c_.fill(S(0));
+        for (int k = 0; k < detail::widths; ++k)
+            for (int i = 0; i < detail::angles; ++i) c_[i] += S(t.albedo[k][i]) * p[k];
     }
 
     /// E, mu > 0 and `sine` those of the angle of incidence.

@@ -14,12 +14,13 @@ template <class Direction, class F>
 void for_boundary_samples(const Material& material, int samples, std::uint64_t key,
                           Direction&& direction, F&& f) {
     Sampler sampler(Sampler::Kind::sobol, 0, samples);
-    const Wavelengths w = Wavelengths::rgb_bands();
+    BsdfScratch scratch;
+    const Bsdf& bsdf = material.at(SurfacePoint{}, Wavelengths::rgb_bands(), scratch);
     for (int i = 0; i < samples; ++i) {
         sampler.start(key, std::uint32_t(i));
         const Vec3f wo = direction(sampler.next2d());
         const float u1 = sampler.next1d();
-        const auto s = material.sample(SurfacePoint{}, wo, u1, sampler.next2d(), w);
+        const auto s = bsdf.sample(wo, u1, sampler.next2d());
         // Weights are those of radiance, which changes by 1 / eta^2; power does not.
         if (s) f(s->wi, double(s->weight[0] * s->eta * s->eta) / samples, s->wi.z * wo.z > 0.f);
     }

@@ -7,7 +7,7 @@
 #include "nacre/math/lanes_math.h"
 #include "nacre/math/warp.h"
 #include "nacre/optics/fresnel.h"
-#include "nacre/render/shadow_ray.h"
+#include "nacre/render/shadow_walk.h"
 
 namespace nacre {
 
@@ -16,10 +16,6 @@ namespace {
 using illumination::LightDistance;
 using illumination::Part;
 using Lighting = illumination::Lighting<float, Spectral>;
-
-// A shadow ray stops this share of its length before the light, so that rounding cannot make the
-// light shade itself.
-constexpr float shadow_margin = 1e-4f;
 
 // Where light from infinity is put for models that divide by |L|: so far that no |V| matters, and
 // its fourth power is still a float.
@@ -46,7 +42,8 @@ Framef facing(const SurfacePoint& at, const Vec3f& to_viewer) {
 Spectral color_of(const Material& material, const SurfacePoint& at, const Wavelengths& w) {
     if (!(material.flags() & has_smooth)) return Spectral(1.f);
     const Vec3f up{0.f, 0.f, 1.f};
-    return min(material.eval(at, up, up, w) * std::numbers::pi_v<float>, Spectral(1.f));
+    BsdfScratch scratch;
+    return min(material.at(at, w, scratch).eval(up, up) * std::numbers::pi_v<float>, Spectral(1.f));
 }
 
 }  // namespace
@@ -63,33 +60,34 @@ LegacyShading::LegacyShading(const Scene& scene)
     transparency_ = settings_->find(Part::transparency);
 }
 
-bool LegacyShading::is_transparent(const Hit& hit) const {
-    return transparency_ &&
-           (scene_.shapes[hit.shape].material->flags() & (transmits | has_null)) != 0;
+bool LegacyShading::is_transparent(const ShapeBinding& shape) const {
+    return transparency_ && (shape.material->flags() & (transmits | has_null)) != 0;
 }
 
 Spectral LegacyShading::transmittance(const Vec3f& wo, const Wavelengths& w) const {
     return illumination::transmittance(*transparency_->model, transparency_->values(w), wo);
 }
 
+/// What lies on the way of a shadow ray: surfaces that the transparency model lets light through.
+struct LegacyShading::WayToLight {
+    const LegacyShading& shading;
+    const Wavelengths& wavelengths;
+    Spectral kept{1.f};
+
+    bool empty() const { return false; }
+    bool passes(const ShapeBinding& shape) const { return shading.is_transparent(shape); }
+    bool segment(const Ray&, float) const { return true; }
+    bool surface(const ShapeBinding&, const SurfacePoint& at, const Vec3f& d) {
+        kept *= shading.transmittance(at.shading.to_local(-d), wavelengths);
+        return true;
+    }
+};
+
 Spectral LegacyShading::visibility(const SurfacePoint& from, const LightSample& light,
                                    const Wavelengths& w, RayCounts& counts) const {
-    Spectral kept(1.f);
-    if (!settings_->shadows) return kept;
-    const ShadowRay shadow = shadow_ray(from, light);
-    Ray ray{shadow.origin, shadow.direction, 0.f, shadow.distance * (1.f - shadow_margin)};
-    while (ray.tmax > 0.f) {
-        ++counts.rays;
-        const auto hit = scene_.rays.intersect(ray);
-        if (!hit) return kept;
-        if (!is_transparent(*hit)) break;
-        const SurfacePoint at = scene_.rays.surface_point(ray, *hit);
-        kept *= transmittance(at.shading.to_local(-ray.d), w);
-        const Point3f next = at.spawn(ray.d);
-        ray.tmax -= dot(next - ray.o, ray.d);
-        ray.o = next;
-    }
-    return Spectral(0.f);
+    WayToLight way{*this, w};
+    if (!settings_->shadows) return way.kept;
+    return walk_to_light(scene_, shadow_ray(from, light), counts, way) ? way.kept : Spectral(0.f);
 }
 
 float LegacyShading::unblocked(const SurfacePoint& at, const Framef& frame, Sampler& sampler,
@@ -175,7 +173,7 @@ Spectral LegacyShading::radiance(const Ray& camera_ray, Sampler& sampler,
         const Vec3f to_viewer = -ray.d;
         const Framef frame = facing(at, to_viewer);
         const Vec3f wo = frame.to_local(to_viewer);
-        const bool transparent = is_transparent(*hit);
+        const bool transparent = is_transparent(scene_.shapes[hit->shape]);
         const Spectral kt = transparent ? transmittance(wo, wavelengths) : Spectral(0.f);
         result += share * (Spectral(1.f) - kt) *
                   shade(at, frame, to_viewer, way, sampler, wavelengths, counts);

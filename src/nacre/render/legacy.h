@@ -35,7 +35,8 @@ class LegacyShading : public Integrator {
                       RayCounts& counts) const override;
 
   private:
-    bool is_transparent(const Hit& hit) const;
+    struct WayToLight;
+    bool is_transparent(const ShapeBinding& shape) const;
     Spectral transmittance(const Vec3f& wo, const Wavelengths& w) const;
     Spectral visibility(const SurfacePoint& from, const LightSample& light, const Wavelengths& w,
                         RayCounts& counts) const;

@@ -4,12 +4,16 @@
 // A path is drawn with the probabilities of one lane, the hero, but could have been drawn with
 // those of any: the one-sample balance heuristic over the lanes (Wilkie et al. 2014; Miller,
 // Georgiev, Jarosz 2019) weights it. Kept are, for lane k,
-//     throughput_k   integrand over the lane's own density: what an analogue path of that lane
-//     would carry density_k      density of the path under lane k, up to a factor that is common to
-//     all
-// so that the contribution of emitted radiance L is throughput_k density_k L_k / mean(density +
-// partner), where `partner` is the density with which the same path could have been made by the
-// other strategy that ends at lights (next-event estimation at the last vertex, or a guided exit).
+//
+//   throughput_k   integrand over the lane's own density: what an analogue path of it would carry
+//   density_k      density of the path under lane k, up to a factor that is common to all
+//
+// so that emitted radiance L contributes
+//
+//   throughput_k density_k L_k / mean(density + other)
+//
+// where `other` is the density with which the other strategy that ends at lights (next-event
+// estimation at the last vertex, or a guided exit) could have made the same path.
 // A walk of n collisions and length l has density sigma_k^n exp(-sigma_k l), so nothing spectral
 // needs doing at its steps.
 #include <cmath>

@@ -41,10 +41,4 @@ class PathTracer : public Integrator {
     bool has_null_ = false;
 };
 
-/// Share of light that a shadow ray from `origin` along `direction` keeps until `distance`: 0
-/// behind opaque surfaces, the product of null transmissions otherwise. Media are not considered.
-Spectral surface_transmittance(const Scene& scene, bool scene_has_null, Point3f origin,
-                               const Vec3f& direction, float distance,
-                               const Wavelengths& wavelengths, RayCounts& counts);
-
 }  // namespace nacre

@@ -1,10 +1,9 @@
 #include "nacre/render/surface_path.h"
 
-#include <algorithm>
-
+#include "nacre/render/first_boundary.h"
 #include "nacre/render/roulette.h"
 #include "nacre/render/shading_normal.h"
-#include "nacre/render/shadow_ray.h"
+#include "nacre/render/shadow_walk.h"
 
 namespace nacre {
 
@@ -31,13 +30,10 @@ void SurfacePath::follow() {
         if (light && !(depth_ == 0 && scene_.integrator.hide_emitters))
             add_emission(*light, hit ? &at : nullptr);
         if (!hit) return;
-        if (faint_ && depth_ > 0) {
-            // What a reflection split off shows by itself has been seen; the rest of it is worth
-            // its share of the work only, and a little more.
-            faint_ = false;
-            const float chance = std::min(1.f, 4.f * max_lane(throughput_));
-            if (!(sampler_.next1d() < chance)) return;
-            throughput_ *= Spectral(1.f / chance);
+        if (split_reflection_ && depth_ > 0) {
+            split_reflection_ = false;
+            const float chance = reflection_chance(max_lane(throughput_));
+            if (!survives(chance, sampler_.next1d(), throughput_)) return;
         }
         if (!at_surface(at)) return;
     }
@@ -62,15 +58,9 @@ bool SurfacePath::at_translucent(const SurfacePoint& at, const Translucency& bel
     const float eta = below.boundary().eta();
     const float reflected = eta == 1.f ? 0.f : fresnel_dielectric(wo.z, eta);
     if (depth_ == 0 && reflected > 0.f) {
-        // What the camera sees is followed both ways: a mirror image of a lamp that one path in
-        // twenty finds is noise.
-        SurfacePath mirror(*this);
-        mirror.result_ = Spectral(0.f);
-        mirror.throughput_ *= Spectral(reflected);
-        mirror.faint_ = true;
-        if (mirror.reflect(at, wo)) mirror.follow();
-        result_ += mirror.result_;
-        throughput_ *= Spectral(1.f - reflected);
+        split_at_first_boundary(*this, reflected, 1.f - reflected, [&](SurfacePath& reflection) {
+            if (reflection.reflect(at, wo)) reflection.follow();
+        });
     } else if (sampler_.next1d() < reflected) {
         return reflect(at, wo);
     }
@@ -81,14 +71,16 @@ bool SurfacePath::at_rough(const SurfacePoint& at, const Translucency& below, co
                            const Vec3f& wo) {
     // Lights below the surface are hidden by it: of the lobes the reflecting one is left.
     const Vec3f up = at.ng;
-    if (within_depth(1)) result_ += throughput_ * direct_light(at, rough, wo, &up);
+    BsdfScratch scratch;
+    const Bsdf& bsdf = rough.at(at, wavelengths_, scratch);
+    if (within_depth(1)) result_ += throughput_ * direct_light(at, bsdf, wo, &up);
     const float u1 = sampler_.next1d();
-    const auto sample = rough.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
+    const auto sample = bsdf.sample(wo, u1, sampler_.next2d());
     if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
     if (sample->wi.z > 0.f) {
         throughput_ *= sample->weight;
         leave(at, at.shading.to_world(sample->wi));
-        certain_ = false;
+        specular_bounce_ = false;
         pdf_ = sample->pdf;
         from_ = at.p;
         return goes_on();
@@ -109,18 +101,20 @@ bool SurfacePath::enter(const SurfacePoint& at, const Translucency& below, const
 
 bool SurfacePath::reflect(const SurfacePoint& at, const Vec3f& wo) {
     leave(at, at.shading.to_world({-wo.x, -wo.y, wo.z}));
-    certain_ = true;
+    specular_bounce_ = true;
     pdf_ = 0.f;
     return goes_on();
 }
 
 bool SurfacePath::scatter(const SurfacePoint& at, const Material& material, const Vec3f& wo) {
+    BsdfScratch scratch;
+    const Bsdf& bsdf = material.at(at, wavelengths_, scratch);
     if ((material.flags() & has_smooth) &&
         tracer_.estimators_ != PathTracer::Estimators::material_only && within_depth(1))
-        result_ += throughput_ * direct_light(at, material, wo);
+        result_ += throughput_ * direct_light(at, bsdf, wo);
 
     const float u1 = sampler_.next1d();
-    const auto sample = material.sample(at, wo, u1, sampler_.next2d(), wavelengths_);
+    const auto sample = bsdf.sample(wo, u1, sampler_.next2d());
     if (!sample || !(max_lane(sample->weight) > 0.f)) return false;
     if (tracer_.recursive_only_ && !sample->delta) return false;
     throughput_ *= sample->weight;
@@ -133,15 +127,17 @@ bool SurfacePath::scatter(const SurfacePoint& at, const Material& material, cons
     leave(at, at.shading.to_world(sample->wi));
     // A surface that light passes as if it were not there makes no difference to either.
     if (sample->null) return true;
-    certain_ = sample->delta;
+    specular_bounce_ = sample->delta;
     pdf_ = sample->pdf;
     from_ = at.p;
     return goes_on();
 }
 
 bool SurfacePath::goes_on() {
-    if (depth_ >= tracer_.rr_depth_ && !survives(throughput_, eta_, sampler_.next1d(), throughput_))
-        return false;
+    if (depth_ >= tracer_.rr_depth_) {
+        const float chance = surface_chance(max_lane(throughput_) * eta_ * eta_);
+        if (!survives(chance, sampler_.next1d(), throughput_)) return false;
+    }
     ++depth_;
     return true;
 }
@@ -153,19 +149,20 @@ void SurfacePath::leave(const SurfacePoint& at, const Vec3f& direction) {
 void SurfacePath::add_emission(const Light& light, const SurfacePoint* on_light) {
     using Estimators = PathTracer::Estimators;
     const bool found_by_chance =
-        certain_ || (!tracer_.recursive_only_ && tracer_.estimators_ != Estimators::light_only);
+        specular_bounce_ ||
+        (!tracer_.recursive_only_ && tracer_.estimators_ != Estimators::light_only);
     if (!found_by_chance) return;
     const Spectral emitted = light.radiance(on_light, ray_.d, wavelengths_);
     if (!(max_lane(emitted) > 0.f)) return;
-    const bool alone = certain_ || tracer_.estimators_ == Estimators::material_only;
+    const bool alone = specular_bounce_ || tracer_.estimators_ == Estimators::material_only;
     const float light_pdf =
         alone ? 0.f
               : tracer_.lights_.probability(from_, &light) * light.pdf(from_, ray_.d, on_light);
     result_ += throughput_ * emitted * Spectral(alone ? 1.f : pdf_ / (pdf_ + light_pdf));
 }
 
-Spectral SurfacePath::direct_light(const SurfacePoint& at, const Material& material,
-                                   const Vec3f& wo, const Vec3f* above) {
+Spectral SurfacePath::direct_light(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
+                                   const Vec3f* above) {
     const LightChooser::Choice choice = tracer_.lights_.choose(at.p, sampler_.next1d());
     const Vec2f u = sampler_.next2d();
     if (!choice.light) return Spectral(0.f);
@@ -173,17 +170,16 @@ Spectral SurfacePath::direct_light(const SurfacePoint& at, const Material& mater
     if (!(light.pdf > 0.f) || !(max_lane(light.radiance) > 0.f)) return Spectral(0.f);
     const Vec3f wi = at.shading.to_local(light.wi);
     if (above && !(wi.z > 0.f && dot(light.wi, *above) > 0.f)) return Spectral(0.f);
-    const Spectral f = material.eval(at, wo, wi, wavelengths_);
-    if (!(max_lane(f) > 0.f)) return Spectral(0.f);
-    const float light_pdf = light.pdf * choice.probability;
     // Recursive ray tracing never finds a light by chance, so its light samples count in full.
     const bool alone = light.delta || tracer_.recursive_only_ ||
                        tracer_.estimators_ == PathTracer::Estimators::light_only;
-    const float material_pdf = alone ? 0.f : material.pdf(at, wo, wi, wavelengths_);
+    const auto [f, material_pdf] =
+        alone ? BsdfValue{bsdf.eval(wi, wo), 0.f} : bsdf.eval_pdf(wi, wo);
+    if (!(max_lane(f) > 0.f)) return Spectral(0.f);
+    const float light_pdf = light.pdf * choice.probability;
     const ShadowRay shadow = shadow_ray(at, light);
     const Spectral kept =
-        surface_transmittance(scene_, tracer_.has_null_, shadow.origin, shadow.direction,
-                              shadow.distance, wavelengths_, counts_);
+        surface_transmittance(scene_, tracer_.has_null_, shadow, wavelengths_, counts_);
     return f * light.radiance * kept / Spectral(light_pdf + material_pdf);
 }
 

@@ -20,6 +20,9 @@ class SurfacePath {
     Spectral trace_from(const SurfacePoint& at, const Material& material, const Vec3f& wo);
 
   private:
+    template <class Path, class Follow>
+    friend void split_at_first_boundary(Path&, float, float, Follow&&);
+
     // Follows the ray, and what becomes of it, to the end.
     void follow();
     // Each meets one thing and turns the ray to where the path goes on; false ends the path.
@@ -33,7 +36,7 @@ class SurfacePath {
     bool reflect(const SurfacePoint& at, const Vec3f& wo);
 
     void add_emission(const Light& light, const SurfacePoint* on_light);
-    Spectral direct_light(const SurfacePoint& at, const Material& material, const Vec3f& wo,
+    Spectral direct_light(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
                           const Vec3f* above = nullptr);
     void leave(const SurfacePoint& at, const Vec3f& direction);
     bool within_depth(int more) const {
@@ -54,10 +57,11 @@ class SurfacePath {
     float eta_ = 1.f;
     int depth_ = 0;
     bool single_wavelength_ = false;
-    bool faint_ = false;  // a reflection split off at the first surface, not yet put to roulette
+    // Split off at the first boundary (first_boundary.h), and not yet put to the roulette.
+    bool split_reflection_ = false;
     // How the ray got its direction: density of the last smooth choice, and the point it was made
-    // at. `certain_` after the camera and after mirrors, where light samples had no part.
-    bool certain_ = true;
+    // at. After the camera and after mirrors, `specular_bounce_`, light samples had no part.
+    bool specular_bounce_ = true;
     float pdf_ = 0.f;
     Point3f from_;
 };

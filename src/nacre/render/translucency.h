@@ -28,12 +28,8 @@ class EntryLobe final : public Material {
     }
 
     unsigned flags() const override { return reflects | has_smooth; }
-    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
-                  const Wavelengths&) const override;
-    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f& wi,
-              const Wavelengths&) const override;
-    std::optional<MaterialSample> sample(const SurfacePoint&, const Vec3f&, float, Vec2f u2,
-                                         const Wavelengths&) const override;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& wavelengths,
+                   BsdfScratch& scratch) const override;
 
   private:
     ObjectBoundary boundary_;

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nacre/render/first_boundary.h"
 #include "nacre/render/roulette.h"
 #include "nacre/render/shading_normal.h"
 #include "nacre/render/walk.h"
 
 namespace nacre {
-
-namespace {
-
-// So many collisions are walked before anything else (roulette, spectral weights) is thought about.
-constexpr std::uint32_t walk_chunk = 64;
-
-}  // namespace
 
 struct VolumePath::WalkSurroundings {
     VolumePath& path;
@@ -64,13 +58,10 @@ Spectral VolumePath::trace() {
             break;
         }
         if (!(event == Event::surface ? at_surface() : at_collision())) break;
-        // What a reflection split off shows by itself has been seen; the rest of it is worth its
-        // share of the work only, and a little more.
-        if (faint_ && depth_ > 1) {
-            faint_ = false;
-            const float chance = std::min(1.f, 4.f * relative_weight());
-            if (!(sampler_.random().next() < chance)) break;
-            throughput_ *= Spectral(1.f / chance);
+        if (split_reflection_ && depth_ > 1) {
+            split_reflection_ = false;
+            const float chance = reflection_chance(relative_weight());
+            if (!survives(chance, sampler_.random().next(), throughput_)) break;
         }
     }
     return result_;
@@ -108,7 +99,7 @@ VolumePath::Event VolumePath::travel_homogeneous() {
         if (walker.collisions > 0) {
             throughput_ *= lanes.survival(walker.collisions);
             density_ *= lanes.walk_density(walker.collisions, walker.length);
-            partner_ = Partner::none;
+            other_strategy_ = Strategy::none;
             last_collision_ = {true, walker.p, walker.d_in, density_};
         }
         if (end == WalkEnd::lost) return Event::ended;
@@ -119,15 +110,9 @@ VolumePath::Event VolumePath::travel_homogeneous() {
         }
         if (info.connect) return Event::collision;
         if (!within_depth(0)) return Event::ended;
-        // Deep in a walk only faint paths are put to the roulette, and a white one never: it will
-        // find its way out.
-        const float weight = relative_weight();
-        const float chance =
-            std::min(1.f, depth_ > scene_.integrator.rr_depth ? weight : 16.f * weight);
-        if (chance < 1.f) {
-            if (!(walker.random.next() < chance)) return Event::ended;
-            throughput_ *= Spectral(1.f / chance);
-        }
+        const float chance = walk_chance(relative_weight(), depth_ > scene_.integrator.rr_depth);
+        if (chance < 1.f && !survives(chance, walker.random.next(), throughput_))
+            return Event::ended;
         walker.d_in = walker.d;
         walker.d = medium_->phase.sample(walker.d, walker.random.next2());
         last_collision_.d_in = walker.d_in;
@@ -173,14 +158,13 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
 bool VolumePath::at_collision() {
     if (!within_depth(0)) return false;
     connect_to_light(nullptr, nullptr, {});
-    // A white medium keeps every path: it will find its way out, and weights that grow at each of
-    // hundreds of collisions would be noise.
-    if (depth_ > scene_.integrator.rr_depth && !roulette(sampler_.random().next(), 1.f))
+    if (depth_ > scene_.integrator.rr_depth &&
+        !survives(collision_chance(relative_weight()), sampler_.random().next(), throughput_))
         return false;
     const Vec3f d_in = ray_.d;
     const Vec3f d = medium_->phase.sample(d_in, sampler_.random().next2());
-    partner_ = Partner::light_sampling;
-    partner_density_ = density_;
+    other_strategy_ = Strategy::light_sampling;
+    other_density_ = density_;
     vertex_ = ray_.o;
     vertex_pdf_ = medium_->phase.eval(dot(d_in, d));
     ray_ = {ray_.o, d};
@@ -197,48 +181,46 @@ bool VolumePath::at_surface() {
     // Where light passes, paths go on below an interpolated normal; elsewhere they would end.
     if (!(material.flags() & transmits)) turn_to_viewer(at, -ray_.d, !material.is_lambertian());
     const Vec3f wo = at.shading.to_local(-ray_.d);
-    if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &material, wo);
+    BsdfScratch scratch;
+    const Bsdf& bsdf = material.at(at, wavelengths_, scratch);
+    if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &bsdf, wo);
 
     const float u1 = sampler_.next1d();
     const Vec2f u2 = sampler_.next2d();
     if (depth_ == 0 && wo.z > 0.f && material.smooth_boundary_eta() > 0.f) {
-        // A smooth boundary that the camera sees: both ways are followed, since a mirror image of
-        // a lamp that one path in twenty finds is noise.
-        const auto reflected = material.sample(at, wo, 0.f, u2, wavelengths_);
-        const auto refracted = material.sample(at, wo, 0x1.fffffep-1f, u2, wavelengths_);
+        const auto reflected = bsdf.sample(wo, 0.f, u2);
+        const auto refracted = bsdf.sample(wo, 0x1.fffffep-1f, u2);
         if (reflected && refracted && reflected->wi.z > 0.f && refracted->wi.z < 0.f) {
-            VolumePath reflection(*this);
-            reflection.result_ = Spectral(0.f);
-            reflection.throughput_ *= Spectral(reflected->pdf);
-            reflection.faint_ = true;
-            if (reflection.follow(at, material, wo, *reflected)) result_ += reflection.trace();
-            throughput_ *= Spectral(refracted->pdf);
-            return follow(at, material, wo, *refracted);
+            split_at_first_boundary(*this, reflected->pdf, refracted->pdf,
+                                    [&](VolumePath& reflection) {
+                                        if (reflection.follow(at, bsdf, wo, *reflected))
+                                            reflection.trace();
+                                    });
+            return follow(at, bsdf, wo, *refracted);
         }
     }
-    const auto sample = material.sample(at, wo, u1, u2, wavelengths_);
-    return sample && max_lane(sample->weight) > 0.f && follow(at, material, wo, *sample);
+    const auto sample = bsdf.sample(wo, u1, u2);
+    return sample && max_lane(sample->weight) > 0.f && follow(at, bsdf, wo, *sample);
 }
 
-bool VolumePath::follow(const SurfacePoint& at, const Material& material, const Vec3f& wo,
-                        const MaterialSample& sample) {
+bool VolumePath::follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
+                        const BsdfSample& sample) {
     const Vec3f direction = at.shading.to_world(sample.wi);
-    const float passing =
-        sample.null ? mean_of(material.null_transmission(at, wo, wavelengths_)) : 0.f;
+    const float passing = sample.null ? mean_of(bsdf.null_transmission(wo)) : 0.f;
     if (passing > 0.f) {
         // Straight through: the segment goes on, and so does the chance that next-event estimation
         // had to make it.
         throughput_ *= sample.weight;
         density_ *= Spectral(passing);
-        if (partner_ == Partner::guided_exit) partner_ = Partner::none;
+        if (other_strategy_ == Strategy::guided_exit) other_strategy_ = Strategy::none;
     } else {
         ++depth_;
         throughput_ *= sample.weight;
         eta_ *= sample.eta;
         vertex_ = at.p;
         vertex_pdf_ = sample.pdf;
-        partner_density_ = density_;
-        partner_ = sample.delta ? Partner::none : Partner::light_sampling;
+        other_density_ = density_;
+        other_strategy_ = sample.delta ? Strategy::none : Strategy::light_sampling;
         // From outside as the interpolated normal sees it, no proposal would have come.
         if (sample.delta && last_collision_.valid && wo.z < 0.f && sample.wi.z > 0.f)
             expect_guided_exit(sample.pdf);
@@ -249,11 +231,11 @@ bool VolumePath::follow(const SurfacePoint& at, const Material& material, const 
         single_wavelength_ = true;
         hero_ = 0;
         density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
-        partner_density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
+        other_density_ *= Spectral(1.f, 0.f, 0.f, 0.f);
     }
     leave(at, direction);
-    return depth_ <= scene_.integrator.rr_depth || passing > 0.f ||
-           roulette(sampler_.next1d(), 0.95f);
+    if (depth_ <= scene_.integrator.rr_depth || passing > 0.f) return true;
+    return survives(surface_chance(relative_weight()), sampler_.next1d(), throughput_);
 }
 
 void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {
@@ -265,13 +247,6 @@ void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {
 
 float VolumePath::relative_weight() const {
     return max_lane(throughput_ * density_) / std::max(1e-30f, mean_of(density_)) * eta_ * eta_;
-}
-
-bool VolumePath::roulette(float u, float most) {
-    const float chance = std::min(most, relative_weight());
-    if (!(u < chance)) return false;
-    throughput_ *= Spectral(1.f / chance);
-    return true;
 }
 
 }  // namespace nacre

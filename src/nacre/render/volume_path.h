@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "nacre/render/path_state.h"
+#include "nacre/render/shadow_ray.h"
 #include "nacre/render/volume_path_tracer.h"
 
 namespace nacre {
@@ -17,6 +18,9 @@ class VolumePath {
     Spectral trace();
 
   private:
+    template <class Path, class Follow>
+    friend void split_at_first_boundary(Path&, float, float, Follow&&);
+
     enum class Event { surface, escaped, collision, ended };
 
     // Moves the path through its medium to the next surface or collision.
@@ -27,19 +31,20 @@ class VolumePath {
     bool at_surface();
     bool at_collision();
     // Goes on from a surface in the direction of `sample`.
-    bool follow(const SurfacePoint& at, const Material& material, const Vec3f& wo,
-                const MaterialSample& sample);
+    bool follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
+                const BsdfSample& sample);
 
     void add_emission(const Light& light, const SurfacePoint* on_light);
-    // Next-event estimation at a surface (material set) or a collision (null), with the density of
-    // the path's own choice of that direction; see `connect` for the shadow ray.
-    void connect_to_light(const SurfacePoint* at, const Material* material, const Vec3f& wo);
-    // Light that gets from p along direction over a distance: per lane kept, and density of the
-    // path's own way there.
+    // Next-event estimation at a surface (`at` and `bsdf` set) or a collision (null), with the
+    // density of the path's own choice of that direction; see `connection` for the shadow ray.
+    void connect_to_light(const SurfacePoint* at, const Bsdf* bsdf, const Vec3f& wo);
+    // What is left of the light that comes to a shadow ray's origin, and the density of the path's
+    // own way to the light, both per lane. `medium` is that at the origin.
     struct Connection {
-        Spectral kept, density;
+        Spectral kept{0.f}, density{0.f};
     };
-    Connection connection(Point3f p, const Vec3f& direction, float distance, const Medium* medium);
+    struct WayToLight;
+    Connection connection(const ShadowRay& shadow, const Medium* medium);
     // Called by the walk: proposes an exit towards a light at a collision.
     struct WalkSurroundings;
     void guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
@@ -49,11 +54,8 @@ class VolumePath {
     void expect_guided_exit(float transmittance);
 
     bool within_depth(int more) const { return max_depth_ < 0 || depth_ + more < max_depth_; }
-    // What the path carries, relative to its start: the largest lane, factors of refraction taken
-    // out.
+    // What the path carries, as the roulette weighs it.
     float relative_weight() const;
-    // Survives with the probability of its relative weight, but at most `most`.
-    bool roulette(float u, float most);
     float mean_of(const Spectral& s) const { return mean(s, wavelengths_); }
     void leave(const SurfacePoint& at, const Vec3f& direction);
 
@@ -72,12 +74,14 @@ class VolumePath {
     int depth_ = 0;
     float eta_ = 1.f;
     bool single_wavelength_ = false;
-    bool faint_ = false;  // a reflection split off at the first surface, not yet put to roulette
+    // Split off at the first boundary (first_boundary.h), and not yet put to the roulette.
+    bool split_reflection_ = false;
 
-    // The other strategy that could have made the present segment: none after cameras and mirrors.
-    enum class Partner { none, light_sampling, guided_exit } partner_ = Partner::none;
-    Spectral partner_density_{
-        0.f};  // of the path up to the last vertex; times the guide's density for guided exits
+    // The other strategy of multiple importance sampling that could have made the present segment;
+    // after cameras and mirrors there is none. Its density is that of the path up to the last
+    // vertex, for guided exits times that of the guide.
+    enum class Strategy { none, light_sampling, guided_exit } other_strategy_ = Strategy::none;
+    Spectral other_density_{0.f};
     Point3f vertex_;  // where the present direction was chosen
     float vertex_pdf_ = 0.f;
 

@@ -4,34 +4,25 @@
 #include <cmath>
 
 #include "nacre/optics/fresnel.h"
-#include "nacre/render/shadow_ray.h"
+#include "nacre/render/shadow_walk.h"
 #include "nacre/render/volume_path.h"
 #include "nacre/render/walk.h"
 
 namespace nacre {
 
-namespace {
-
-// A shadow ray stops this share of its length before the light, so that rounding cannot make the
-// light shade itself.
-constexpr float shadow_margin = 1e-4f;
-
-}  // namespace
-
 void VolumePath::add_emission(const Light& light, const SurfacePoint* on_light) {
     const Spectral emitted = light.radiance(on_light, ray_.d, wavelengths_);
     if (!(max_lane(emitted) > 0.f)) return;
     float density = mean_of(density_);
-    if (partner_ == Partner::light_sampling && vertex_pdf_ > 0.f)
-        density += mean_of(partner_density_) * tracer_.lights_.probability(vertex_, &light) *
+    if (other_strategy_ == Strategy::light_sampling && vertex_pdf_ > 0.f)
+        density += mean_of(other_density_) * tracer_.lights_.probability(vertex_, &light) *
                    light.pdf(vertex_, ray_.d, on_light) / vertex_pdf_;
-    else if (partner_ == Partner::guided_exit)
-        density += mean_of(partner_density_);
+    else if (other_strategy_ == Strategy::guided_exit)
+        density += mean_of(other_density_);
     if (density > 0.f) result_ += throughput_ * density_ * emitted * Spectral(1.f / density);
 }
 
-void VolumePath::connect_to_light(const SurfacePoint* at, const Material* material,
-                                  const Vec3f& wo) {
+void VolumePath::connect_to_light(const SurfacePoint* at, const Bsdf* bsdf, const Vec3f& wo) {
     const Point3f from = at ? at->p : ray_.o;
     const LightChooser::Choice choice =
         tracer_.lights_.choose(from, at ? sampler_.next1d() : sampler_.random().next());
@@ -46,8 +37,9 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Material* materi
     ShadowRay shadow{from, light.wi, light.distance};
     if (at) {
         const Vec3f wi = at->shading.to_local(light.wi);
-        f = material->eval(*at, wo, wi, wavelengths_);
-        own_pdf = material->pdf(*at, wo, wi, wavelengths_);
+        const BsdfValue value = bsdf->eval_pdf(wi, wo);
+        f = value.f;
+        own_pdf = value.pdf;
         shadow = shadow_ray(*at, light);
         const ShapeBinding& shape = scene_.shapes[at->shape];
         if (shape.separates_media)
@@ -57,7 +49,7 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Material* materi
         f = Spectral(own_pdf);
     }
     if (!(max_lane(f) > 0.f)) return;
-    const Connection c = connection(shadow.origin, shadow.direction, shadow.distance, medium);
+    const Connection c = connection(shadow, medium);
     if (!(max_lane(c.kept) > 0.f)) return;
     const float light_pdf = light.pdf * choice.probability;
     const float density = mean_of(
@@ -66,58 +58,62 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Material* materi
         result_ += throughput_ * density_ * f * c.kept * light.radiance * Spectral(1.f / density);
 }
 
-VolumePath::Connection VolumePath::connection(Point3f p, const Vec3f& direction, float distance,
-                                              const Medium* medium) {
+/// What lies on the way of a shadow ray: surfaces that let pass, and the media between them.
+struct VolumePath::WayToLight {
+    VolumePath& path;
+    const Medium* medium;
     Connection c{Spectral(1.f), Spectral(1.f)};
-    float left = distance * (1.f - shadow_margin);
-    Random& random = sampler_.random();
-    while (left > 0.f) {
-        const Ray ray{p, direction, 0.f, left};
-        ++counts_.rays;
-        if (!tracer_.has_null_ && !medium) return scene_.rays.occluded(ray) ? Connection{} : c;
-        const auto hit = scene_.rays.intersect(ray);
-        const Material* material = hit ? scene_.shapes[hit->shape].material.get() : nullptr;
-        if (material && !(material->flags() & has_null)) return {};
-        const float segment = hit ? hit->t : left;
+
+    bool empty() const { return !path.tracer_.has_null_ && !medium; }
+    bool passes(const ShapeBinding& shape) const { return shape.material->flags() & has_null; }
+    bool segment(const Ray& ray, float length) {
         if (medium && medium->homogeneous()) {
-            const Spectral t =
-                MediumLanes(medium->coefficients(p, wavelengths_), wavelengths_, hero_)
-                    .transmittance(segment);
+            const Spectral t = MediumLanes(medium->coefficients(ray.o, path.wavelengths_),
+                                           path.wavelengths_, path.hero_)
+                                   .transmittance(length);
             c.kept *= t;
             c.density *= t;
         } else if (medium) {
-            // Ratio tracking (Novak, Selle, Jarosz 2014).
-            MajorantSegments segments(tracer_.info(medium).majorants, *medium, ray, segment,
-                                      wavelengths_);
-            while (const auto s = segments.next()) {
-                if (!(s->majorant > 0.f)) continue;
-                for (float t = s->begin;;) {
-                    t += -fast_log(1.f - random.next()) / s->majorant;
-                    if (t >= s->end) break;
-                    const Spectral passed =
-                        max(Spectral(0.f),
-                            Spectral(1.f) -
-                                medium->coefficients(p + direction * t, wavelengths_).sigma_t *
-                                    Spectral(1.f / s->majorant));
-                    c.kept *= passed;
-                    c.density *= passed;
-                }
+            ratio_tracking(ray, length);
+        }
+        return max_lane(c.kept) > 0.f;
+    }
+    bool surface(const ShapeBinding& shape, const SurfacePoint& at, const Vec3f& d) {
+        BsdfScratch scratch;
+        const Spectral passing = shape.material->at(at, path.wavelengths_, scratch)
+                                     .null_transmission(at.shading.to_local(-d));
+        c.kept *= passing;
+        c.density *= Spectral(path.mean_of(passing));
+        if (shape.separates_media) medium = dot(d, at.ng) > 0.f ? shape.exterior : shape.interior;
+        return true;
+    }
+
+    // Novak, Selle, Jarosz 2014, Residual Ratio Tracking for Estimating Attenuation in
+    // Participating Media, TOG 33(6).
+    void ratio_tracking(const Ray& ray, float length) {
+        Random& random = path.sampler_.random();
+        MajorantSegments segments(path.tracer_.info(medium).majorants, *medium, ray, length,
+                                  path.wavelengths_);
+        while (const auto s = segments.next()) {
+            if (!(s->majorant > 0.f)) continue;
+            for (float t = s->begin;;) {
+                t += -fast_log(1.f - random.next()) / s->majorant;
+                if (t >= s->end) break;
+                const Spectral passed =
+                    max(Spectral(0.f),
+                        Spectral(1.f) -
+                            medium->coefficients(ray.o + ray.d * t, path.wavelengths_).sigma_t *
+                                Spectral(1.f / s->majorant));
+                c.kept *= passed;
+                c.density *= passed;
             }
         }
-        if (!hit || !(max_lane(c.kept) > 0.f)) break;
-        const SurfacePoint at = scene_.rays.surface_point(ray, *hit);
-        const Spectral passing =
-            material->null_transmission(at, at.shading.to_local(-direction), wavelengths_);
-        c.kept *= passing;
-        c.density *= Spectral(mean_of(passing));
-        const ShapeBinding& shape = scene_.shapes[hit->shape];
-        if (shape.separates_media)
-            medium = dot(direction, at.ng) > 0.f ? shape.exterior : shape.interior;
-        const Point3f next = at.spawn(direction);
-        left -= dot(next - p, direction);
-        p = next;
     }
-    return c;
+};
+
+VolumePath::Connection VolumePath::connection(const ShadowRay& shadow, const Medium* medium) {
+    WayToLight way{*this, medium};
+    return walk_to_light(scene_, shadow, counts_, way) ? way.c : Connection{};
 }
 
 void VolumePath::guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
@@ -177,8 +173,8 @@ void VolumePath::expect_guided_exit(float transmittance) {
     const ExitGuide::Proposal proposal = info->guide.at(last_collision_.p, cell.guide);
     if (!(proposal.probability() > 0.f)) return;
     const float phase = medium_->phase.eval(dot(last_collision_.d_in, ray_.d));
-    partner_ = Partner::guided_exit;
-    partner_density_ =
+    other_strategy_ = Strategy::guided_exit;
+    other_density_ =
         last_collision_.density *
         Spectral(proposal.probability() * proposal.pdf(ray_.d) / (phase * transmittance));
 }

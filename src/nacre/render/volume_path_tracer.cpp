@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nacre/render/shadow_walk.h"
 #include "nacre/render/volume_path.h"
 
 namespace nacre {
@@ -24,8 +25,7 @@ bool overlap(const Box3f& a, const Box3f& b) {
 VolumePathTracer::VolumePathTracer(const Scene& scene, const Work& work)
     : scene_(scene),
       lights_(scene.lights, scene.rays.bounds(), true),
-      has_null_(std::ranges::any_of(
-          scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {
+      has_null_(has_null_surfaces(scene)) {
     for (const MediumPtr& medium : scene.media) prepare(*medium, work);
 }
 

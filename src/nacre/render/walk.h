@@ -25,6 +25,10 @@ struct Walker {
     float free_path = 0.f;  ///< from the last collision to the surface that ended the walk
 };
 
+/// So many collisions a walk makes at a time, before anything else (roulette, spectral weights) is
+/// thought about.
+inline constexpr std::uint32_t walk_chunk = 64;
+
 enum class WalkEnd {
     surface,  ///< a surface ends the segment that starts at `p` along `d`
     paused,   ///< the allowed number of collisions was made; `d` is still the direction before the
@@ -36,12 +40,11 @@ enum class WalkEnd {
 /// absorption is not drawn but left to the caller, as a weight per collision.
 ///
 /// Surroundings provide
-///   Place locate(const Point3f&)             with members `clearance` (a lower bound of the
-///   distance to any surface)
-///                                            and `outside` (the walk is lost)
-///   bool surface(p, d, s, float& t)          is there a surface within s of p along d, and where
-///   void collided(const Walker&, const Place&)  called at each collision, before the direction
-///   changes
+///   Place locate(const Point3f&)     with the members `clearance` (a lower bound of the distance to
+///                                    any surface) and `outside` (the walk is lost)
+///   bool surface(p, d, s, float& t)  is there a surface within s of p along d, and where
+///   void collided(const Walker&, const Place&)
+///                                    called at each collision, before the direction changes
 template <class Surroundings>
 WalkEnd walk(Walker& w, float sigma_t, const PhaseFunction& phase, std::uint32_t max_collisions,
              Surroundings& surroundings) {

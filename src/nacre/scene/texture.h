@@ -18,6 +18,8 @@ class Texture {
     virtual float max() const = 0;
     /// Mean over the texture as a plain number.
     virtual float mean() const = 0;
+    /// Whether it is the same at all points.
+    virtual bool is_constant() const { return false; }
     /// True if it carries wavelength data that three bands cannot represent.
     virtual bool is_spectral() const { return false; }
 };

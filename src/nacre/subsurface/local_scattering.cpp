@@ -9,6 +9,51 @@
 
 namespace nacre {
 
+namespace {
+
+using HalfSpace = HanrahanKrueger<float, Spectral, PhaseFunction>;
+
+class LocalScatteringBsdf final : public Bsdf {
+  public:
+    /// `rest` is rho X, `by_cosine` the probability with which `sample` draws from Lambert's law.
+    LocalScatteringBsdf(const ObjectBoundary& boundary, const SurfacePoint& at,
+                        const HalfSpace& once, Spectral rest, float by_cosine)
+        : boundary_(boundary), at_(at), once_(once), rest_(rest), by_cosine_(by_cosine) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        if (!EntryLobe::is_outside(at_, wi)) return Spectral(0.f);
+        HalfSpace once = once_;
+        // The first order lets light in and out as a smooth boundary does.
+        if (boundary_.rough()) once.albedo *= Spectral(boundary_.over_smooth(wi.z));
+        const float entered = boundary_.transmittance(wi.z) * cosine_hemisphere_pdf(wi.z);
+        Spectral f = rest_ * Spectral(entered);
+        const float leaves = 1.f - once.specular(wo.z);
+        if (leaves > 0.f) f += once.eval(wi, wo) * Spectral(wi.z / leaves);
+        return f;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        if (!(wi.z > 0.f)) return 0.f;
+        return by_cosine_ * cosine_hemisphere_pdf(wi.z) + (1.f - by_cosine_) * once_.pdf(wi, wo);
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        BsdfSample s;
+        s.wi = u1 < by_cosine_ ? square_to_cosine_hemisphere(u2) : once_.sample(wo, u2);
+        s.pdf = pdf(s.wi, wo);
+        if (!(s.pdf > 0.f) || !EntryLobe::is_outside(at_, s.wi)) return std::nullopt;
+        s.weight = eval(s.wi, wo) * Spectral(1.f / s.pdf);
+        return s;
+    }
+
+  private:
+    const ObjectBoundary& boundary_;
+    SurfacePoint at_;
+    HalfSpace once_;
+    Spectral rest_;
+    float by_cosine_;
+};
+
+}  // namespace
+
 double single_scattering_share(double g, double eta) {
     const HanrahanKruegerStack half_space({{{.sigma_s = 1.,
                                              .g = g,
@@ -29,7 +74,6 @@ LocalScatteringLobe::LocalScatteringLobe(const Medium& medium,
     : medium_(medium),
       profile_(std::move(profile)),
       boundary_(boundary),
-      entry_(boundary),
       eta_(boundary.eta()),
       scale_(scale),
       share_(float(single_scattering_share(medium.phase.mean_cosine(), boundary.eta()))),
@@ -39,7 +83,8 @@ LocalScatteringLobe::LocalScatteringLobe(const Medium& medium,
         share_ *= float(boundary.mean_transmittance() / (1. - diffuse_reflectance_external(eta_)));
 }
 
-LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) const {
+const Bsdf& LocalScatteringLobe::at(const SurfacePoint& point, const Wavelengths& w,
+                                    BsdfScratch& scratch) const {
     const MediumCoefficients c = medium_.coefficients({}, w);
     const Spectral none(0.f);
     const Spectral albedo =
@@ -54,40 +99,9 @@ LocalScatteringLobe::Terms LocalScatteringLobe::terms(const Wavelengths& w) cons
     // alone does.
     const float diffuse = mean(rest, w), peaked = mean(once, w);
     const float by_cosine = peaked > 0.f ? std::max(0.5f, diffuse / (diffuse + peaked)) : 1.f;
-    return {{albedo, Spectral(std::numeric_limits<float>::infinity()), medium_.phase, eta_},
-            rest,
-            by_cosine};
-}
-
-Spectral LocalScatteringLobe::eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                                   const Wavelengths& w) const {
-    if (!EntryLobe::is_outside(at, wi)) return Spectral(0.f);
-    Terms t = terms(w);
-    // The first order lets light in and out as a smooth boundary does.
-    if (boundary_.rough()) t.once.albedo *= Spectral(boundary_.over_smooth(wi.z));
-    Spectral f = t.rest * entry_.eval(at, wo, wi, w);
-    const float leaves = 1.f - t.once.specular(wo.z);
-    if (leaves > 0.f) f += t.once.eval(wi, wo) * Spectral(wi.z / leaves);
-    return f;
-}
-
-float LocalScatteringLobe::pdf(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-                               const Wavelengths& w) const {
-    if (!(wi.z > 0.f)) return 0.f;
-    const Terms t = terms(w);
-    return t.by_cosine * cosine_hemisphere_pdf(wi.z) + (1.f - t.by_cosine) * t.once.pdf(wi, wo);
-}
-
-std::optional<MaterialSample> LocalScatteringLobe::sample(const SurfacePoint& at, const Vec3f& wo,
-                                                          float u1, Vec2f u2,
-                                                          const Wavelengths& w) const {
-    const Terms t = terms(w);
-    MaterialSample s;
-    s.wi = u1 < t.by_cosine ? square_to_cosine_hemisphere(u2) : t.once.sample(wo, u2);
-    s.pdf = pdf(at, wo, s.wi, w);
-    if (!(s.pdf > 0.f) || !EntryLobe::is_outside(at, s.wi)) return std::nullopt;
-    s.weight = eval(at, wo, s.wi, w) * Spectral(1.f / s.pdf);
-    return s;
+    const HalfSpace half_space{albedo, Spectral(std::numeric_limits<float>::infinity()),
+                               medium_.phase, eta_};
+    return scratch.make<LocalScatteringBsdf>(boundary_, point, half_space, rest, by_cosine);
 }
 
 namespace {

@@ -37,27 +37,13 @@ class LocalScatteringLobe final : public Material {
                         const ObjectBoundary& boundary, float scale, Orders orders);
 
     unsigned flags() const override { return reflects | has_smooth; }
-    Spectral eval(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths&) const override;
-    float pdf(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths&) const override;
-    std::optional<MaterialSample> sample(const SurfacePoint&, const Vec3f& wo, float u1, Vec2f u2,
-                                         const Wavelengths&) const override;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& wavelengths,
+                   BsdfScratch& scratch) const override;
 
   private:
-    using HalfSpace = HanrahanKrueger<float, Spectral, PhaseFunction>;
-    /// Both terms at the wavelengths of a path.
-    struct Terms {
-        HalfSpace once;
-        Spectral rest;    ///< rho X
-        float by_cosine;  ///< probability with which `sample` draws from Lambert's law
-    };
-    Terms terms(const Wavelengths& w) const;
-
     const Medium& medium_;
     std::shared_ptr<const ProfileTables> profile_;
     ObjectBoundary boundary_;
-    EntryLobe entry_;
     float eta_, scale_, share_;
     Orders orders_;
 };

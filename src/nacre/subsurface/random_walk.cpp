@@ -17,8 +17,6 @@ namespace nacre {
 
 namespace {
 
-// So many collisions are walked before the roulette is thought about.
-constexpr std::uint32_t walk_chunk = 64;
 // A free path meets at most so many surfaces of other shapes.
 constexpr int most_strangers = 64;
 

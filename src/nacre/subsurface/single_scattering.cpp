@@ -1,10 +1,8 @@
 #include "nacre/subsurface/single_scattering.h"
 
-#include <algorithm>
-
 #include "nacre/bssrdf/single_scattering.h"
 #include "nacre/render/path_state.h"
-#include "nacre/render/path_tracer.h"
+#include "nacre/render/shadow_walk.h"
 #include "nacre/technique/common_parameters.h"
 
 namespace nacre {
@@ -17,8 +15,7 @@ SingleScatteringTerm::SingleScatteringTerm(const Scene& scene, std::uint32_t sha
       boundary_(boundary),
       eta_(boundary.eta()),
       lights_(scene.lights, scene.rays.bounds()),
-      has_null_(std::ranges::any_of(
-          scene.shapes, [](const ShapeBinding& s) { return s.material->flags() & has_null; })) {}
+      has_null_(has_null_surfaces(scene)) {}
 
 Spectral SingleScatteringTerm::radiance(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                                         const Wavelengths& w, RayCounts& counts) const {
@@ -52,9 +49,8 @@ Spectral SingleScatteringTerm::radiance(const SurfacePoint& exit, const Vec3f& w
     if (!(cos_i > 0.f) || !(dot(light.wi, entry.ng) > 0.f)) return Spectral(0.f);
     const float mu_i = refracted_cosine(cos_i, eta_);
     const Point3f outside = entry.spawn(light.wi);
-    const Spectral kept =
-        surface_transmittance(scene_, has_null_, outside, light.wi,
-                              light.distance - dot(outside - p, light.wi), w, counts);
+    const ShadowRay shadow{outside, light.wi, light.distance - dot(outside - p, light.wi)};
+    const Spectral kept = surface_transmittance(scene_, has_null_, shadow, w, counts);
     if (!(max_lane(kept) > 0.f)) return Spectral(0.f);
 
     const float s_i = refracted_light_distance(hit->t, cos_i, eta_);

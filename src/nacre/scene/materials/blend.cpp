@@ -2,10 +2,49 @@
 //
 //   weight  (0.5)   share of the second, a number or texture within [0, 1]
 //   two nested <bsdf>
+#include "nacre/scene/materials/nested.h"
 #include "nacre/scene/materials/types.h"
 
 namespace nacre {
 namespace {
+
+class BlendBsdf final : public Bsdf {
+  public:
+    BlendBsdf(const NestedBsdf& first, const NestedBsdf& second, float weight)
+        : first_(first), second_(second), t_(weight) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return (1.f - t_) * first_->eval(wi, wo) + t_ * second_->eval(wi, wo);
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        return (1.f - t_) * first_->pdf(wi, wo) + t_ * second_->pdf(wi, wo);
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        const bool second = u1 < t_;
+        const float share = second ? t_ : 1.f - t_;
+        // The quotient of floats may round up to one.
+        const float u = std::min((second ? u1 : u1 - t_) / share, 0x1.fffffep-1f);
+        auto s = (second ? second_ : first_)->sample(wo, u, u2);
+        if (!s) return s;
+        if (s->delta) {
+            s->pdf *= share;  // its weight is power over probability: the share is in both
+            return s;
+        }
+        // A smooth direction may come from either; if it holds for one lane, so does its value.
+        s->pdf = pdf(s->wi, wo);
+        if (!(s->pdf > 0.f)) return std::nullopt;
+        const Spectral f = eval(s->wi, wo) / s->pdf;
+        s->weight = s->single_wavelength ? Spectral(f[0], 0.f, 0.f, 0.f) : f;
+        return s;
+    }
+    Spectral null_transmission(const Vec3f& wo) const override {
+        return (1.f - t_) * first_.null_transmission(wo) + t_ * second_.null_transmission(wo);
+    }
+
+  private:
+    NestedBsdf first_, second_;
+    float t_;
+};
 
 class Blend final : public Material {
   public:
@@ -13,41 +52,11 @@ class Blend final : public Material {
         : first_(std::move(first)), second_(std::move(second)), weight_(std::move(weight)) {}
 
     unsigned flags() const override { return first_->flags() | second_->flags(); }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        const float t = weight(at);
-        return (1.f - t) * first_->eval(at, wo, wi, w) + t * second_->eval(at, wo, wi, w);
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        const float t = weight(at);
-        return (1.f - t) * first_->pdf(at, wo, wi, w) + t * second_->pdf(at, wo, wi, w);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        const float t = weight(at);
-        const bool second = u1 < t;
-        const float share = second ? t : 1.f - t;
-        // The quotient of floats may round up to one.
-        const float u = std::min((second ? u1 : u1 - t) / share, 0x1.fffffep-1f);
-        auto s = (second ? *second_ : *first_).sample(at, wo, u, u2, w);
-        if (!s) return s;
-        if (s->delta) {
-            s->pdf *= share;  // its weight is power over probability: the share is in both
-            return s;
-        }
-        // A smooth direction may come from either; if it holds for one lane, so does its value.
-        s->pdf = pdf(at, wo, s->wi, w);
-        if (!(s->pdf > 0.f)) return std::nullopt;
-        const Spectral f = eval(at, wo, s->wi, w) / s->pdf;
-        s->weight = s->single_wavelength ? Spectral(f[0], 0.f, 0.f, 0.f) : f;
-        return s;
-    }
-    Spectral null_transmission(const SurfacePoint& at, const Vec3f& wo,
-                               const Wavelengths& w) const override {
-        const float t = weight(at);
-        return (1.f - t) * first_->null_transmission(at, wo, w) +
-               t * second_->null_transmission(at, wo, w);
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<BlendBsdf>(NestedBsdf(*first_, point, w, scratch),
+                                       NestedBsdf(*second_, point, w, scratch),
+                                       std::clamp(weight_->eval_scalar(point.uv), 0.f, 1.f));
     }
     bool is_lambertian() const override {
         return first_->is_lambertian() && second_->is_lambertian();
@@ -55,10 +64,6 @@ class Blend final : public Material {
     bool is_spectral() const override { return first_->is_spectral() || second_->is_spectral(); }
 
   private:
-    float weight(const SurfacePoint& at) const {
-        return std::clamp(weight_->eval_scalar(at.uv), 0.f, 1.f);
-    }
-
     MaterialPtr first_, second_;
     TexturePtr weight_;
 };

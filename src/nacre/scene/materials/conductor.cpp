@@ -10,29 +10,39 @@
 namespace nacre {
 namespace {
 
+class ConductorBsdf final : public DeltaBsdf {
+  public:
+    ConductorBsdf(const MetalIndex& index, const Texture& reflectance, Vec2f uv,
+                  const Wavelengths& w)
+        : index_(index), reflectance_(reflectance), uv_(uv), w_(w) {}
+
+    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        BsdfSample s;
+        s.wi = {-wo.x, -wo.y, wo.z};
+        s.pdf = 1.f;
+        s.delta = true;
+        s.weight = reflectance_.eval(uv_, w_) *
+                   fresnel_conductor(wo.z, index_.eta->eval(uv_, w_), index_.k->eval(uv_, w_));
+        return s;
+    }
+
+  private:
+    const MetalIndex& index_;
+    const Texture& reflectance_;
+    Vec2f uv_;
+    Wavelengths w_;
+};
+
 class Conductor final : public Material {
   public:
     Conductor(MetalIndex index, TexturePtr reflectance)
         : index_(std::move(index)), reflectance_(std::move(reflectance)) {}
 
     unsigned flags() const override { return reflects | has_delta; }
-    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f&,
-                  const Wavelengths&) const override {
-        return Spectral(0.f);
-    }
-    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f&, const Wavelengths&) const override {
-        return 0.f;
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float, Vec2f,
-                                         const Wavelengths& w) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        MaterialSample s;
-        s.wi = {-wo.x, -wo.y, wo.z};
-        s.pdf = 1.f;
-        s.delta = true;
-        s.weight = reflectance_->eval(at.uv, w) *
-                   fresnel_conductor(wo.z, index_.eta->eval(at.uv, w), index_.k->eval(at.uv, w));
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<ConductorBsdf>(index_, *reflectance_, point.uv, w);
     }
     bool is_spectral() const override {
         return index_.eta->is_spectral() || index_.k->is_spectral() || reflectance_->is_spectral();
@@ -44,6 +54,30 @@ class Conductor final : public Material {
 };
 
 template <class Distribution>
+class RoughConductorBsdf final : public Bsdf {
+  public:
+    using Model = RoughConductor<float, Spectral, Distribution>;
+    explicit RoughConductorBsdf(const Model& model) : model_(model) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return model_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f u2) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        BsdfSample s;
+        s.wi = model_.sample(wo, u2);
+        s.pdf = model_.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+
+  private:
+    Model model_;
+};
+
+template <class Distribution>
 class RoughConductorMaterial final : public Material {
   public:
     RoughConductorMaterial(Roughness roughness, MetalIndex index, TexturePtr reflectance)
@@ -52,36 +86,19 @@ class RoughConductorMaterial final : public Material {
           reflectance_(std::move(reflectance)) {}
 
     unsigned flags() const override { return reflects | has_smooth; }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        return model(at, w).eval(wi, wo) * wi.z;
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        return model(at, w).pdf(wi, wo);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float, Vec2f u2,
-                                         const Wavelengths& w) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        const auto m = model(at, w);
-        MaterialSample s;
-        s.wi = m.sample(wo, u2);
-        s.pdf = m.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = m.eval(s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        using Model = RoughConductor<float, Spectral, Distribution>;
+        const Vec2f uv = point.uv;
+        return scratch.make<RoughConductorBsdf<Distribution>>(
+            Model{roughness_.at<Distribution>(uv), index_.eta->eval(uv, w), index_.k->eval(uv, w),
+                  reflectance_->eval(uv, w), roughness_.sampling});
     }
     bool is_spectral() const override {
         return index_.eta->is_spectral() || index_.k->is_spectral() || reflectance_->is_spectral();
     }
 
   private:
-    RoughConductor<float, Spectral, Distribution> model(const SurfacePoint& at,
-                                                        const Wavelengths& w) const {
-        return {roughness_.at<Distribution>(at.uv), index_.eta->eval(at.uv, w),
-                index_.k->eval(at.uv, w), reflectance_->eval(at.uv, w), roughness_.sampling};
-    }
-
     Roughness roughness_;
     MetalIndex index_;
     TexturePtr reflectance_;

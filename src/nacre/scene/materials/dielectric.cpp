@@ -14,6 +14,43 @@
 namespace nacre {
 namespace {
 
+class DielectricBsdf final : public DeltaBsdf {
+  public:
+    DielectricBsdf(const RelativeIndex& index, const Texture& reflectance,
+                   const Texture& transmittance, Vec2f uv, const Wavelengths& w)
+        : index_(index), reflectance_(reflectance), transmittance_(transmittance), uv_(uv), w_(w) {}
+
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f) const override {
+        const bool outside = wo.z >= 0.f;
+        const Spectral inner = index_.eval(w_), eta = outside ? inner : 1.f / inner;
+        const Spectral fresnel = fresnel_dielectric(std::abs(wo.z), eta);
+        const float reflected = fresnel[0];
+
+        BsdfSample s;
+        s.delta = true;
+        if (u1 < reflected) {
+            s.wi = {-wo.x, -wo.y, wo.z};
+            s.pdf = reflected;
+            s.weight = reflectance_.eval(uv_, w_) * fresnel / reflected;
+            return s;
+        }
+        s.eta = eta[0];
+        s.wi = refract(wo, Vec3f{0.f, 0.f, outside ? 1.f : -1.f}, s.eta);
+        s.pdf = 1.f - reflected;
+        if (s.wi.z == 0.f) return std::nullopt;
+        s.weight = transmittance_.eval(uv_, w_) / (s.eta * s.eta);
+        s.single_wavelength = index_.is_dispersive() && w_.mode == ColorMode::spectral;
+        if (s.single_wavelength) s.weight = Spectral(s.weight[0], 0.f, 0.f, 0.f);
+        return s;
+    }
+
+  private:
+    const RelativeIndex& index_;
+    const Texture &reflectance_, &transmittance_;
+    Vec2f uv_;
+    Wavelengths w_;
+};
+
 class Dielectric final : public Material {
   public:
     Dielectric(RelativeIndex index, TexturePtr reflectance, TexturePtr transmittance)
@@ -22,37 +59,9 @@ class Dielectric final : public Material {
           transmittance_(std::move(transmittance)) {}
 
     unsigned flags() const override { return reflects | transmits | has_delta; }
-    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f&,
-                  const Wavelengths&) const override {
-        return Spectral(0.f);
-    }
-    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f&, const Wavelengths&) const override {
-        return 0.f;
-    }
-
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1, Vec2f,
-                                         const Wavelengths& w) const override {
-        const bool outside = wo.z >= 0.f;
-        const Spectral inner = index_.eval(w), eta = outside ? inner : 1.f / inner;
-        const Spectral fresnel = fresnel_dielectric(std::abs(wo.z), eta);
-        const float reflected = fresnel[0];
-
-        MaterialSample s;
-        s.delta = true;
-        if (u1 < reflected) {
-            s.wi = {-wo.x, -wo.y, wo.z};
-            s.pdf = reflected;
-            s.weight = reflectance_->eval(at.uv, w) * fresnel / reflected;
-            return s;
-        }
-        s.eta = eta[0];
-        s.wi = refract(wo, Vec3f{0.f, 0.f, outside ? 1.f : -1.f}, s.eta);
-        s.pdf = 1.f - reflected;
-        if (s.wi.z == 0.f) return std::nullopt;
-        s.weight = transmittance_->eval(at.uv, w) / (s.eta * s.eta);
-        s.single_wavelength = index_.is_dispersive() && w.mode == ColorMode::spectral;
-        if (s.single_wavelength) s.weight = Spectral(s.weight[0], 0.f, 0.f, 0.f);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<DielectricBsdf>(index_, *reflectance_, *transmittance_, point.uv, w);
     }
     float smooth_boundary_eta() const override {
         return index_.is_dispersive() || !is_one(*reflectance_) || !is_one(*transmittance_)

@@ -17,6 +17,66 @@
 namespace nacre {
 namespace {
 
+/// `w` as it is seen from the side of `wo`.
+Vec3f outside(const Vec3f& wo, const Vec3f& w) { return wo.z < 0.f ? Vec3f{w.x, w.y, -w.z} : w; }
+
+class DiffuseTransmitterBsdf final : public Bsdf {
+  public:
+    /// `reflection` may be null. `share` is the probability to pass on.
+    DiffuseTransmitterBsdf(Spectral transmittance, float scale, float coat, float f0, float share,
+                           const Bsdf* reflection)
+        : transmittance_(transmittance),
+          reflection_(reflection),
+          coat_(coat),
+          f0_(f0),
+          scale_(scale),
+          share_(share) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        if (wo.z * wi.z < 0.f)
+            return transmittance_ * (scale_ * through(wo.z) * through(wi.z) * std::abs(wi.z));
+        return reflection_ ? reflection_->eval(outside(wo, wi), outside(wo, wo)) : Spectral(0.f);
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        if (wo.z * wi.z < 0.f) return share_ * std::numbers::inv_pi_v<float> * std::abs(wi.z);
+        return reflection_ ? (1.f - share_) * reflection_->pdf(outside(wo, wi), outside(wo, wo))
+                           : 0.f;
+    }
+    BsdfValue eval_pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        if (wo.z * wi.z < 0.f || !reflection_) return {eval(wi, wo), pdf(wi, wo)};
+        const BsdfValue value = reflection_->eval_pdf(outside(wo, wi), outside(wo, wo));
+        return {value.f, (1.f - share_) * value.pdf};
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (wo.z == 0.f) return std::nullopt;
+        if (u1 < share_) {
+            BsdfSample s;
+            s.wi = square_to_cosine_hemisphere(u2);
+            if (wo.z > 0.f) s.wi.z = -s.wi.z;
+            s.pdf = pdf(s.wi, wo);
+            if (!(s.pdf > 0.f)) return std::nullopt;
+            s.weight = eval(s.wi, wo) / s.pdf;
+            return s;
+        }
+        const float u = std::min((u1 - share_) / (1.f - share_), 0x1.fffffep-1f);
+        auto s = reflection_->sample(outside(wo, wo), u, u2);
+        if (!s) return s;
+        s->wi = outside(wo, s->wi);
+        s->pdf *= 1.f - share_;
+        s->weight = s->weight / (1.f - share_);
+        return s;
+    }
+
+  private:
+    float through(float cosine) const {
+        return 1.f - coat_ * fresnel_schlick(std::abs(cosine), f0_);
+    }
+
+    Spectral transmittance_;
+    const Bsdf* reflection_;
+    float coat_, f0_, scale_, share_;
+};
+
 class DiffuseTransmitter final : public Material {
   public:
     DiffuseTransmitter(TexturePtr transmittance, float coat, float f0, MaterialPtr reflection)
@@ -29,54 +89,17 @@ class DiffuseTransmitter final : public Material {
     unsigned flags() const override {
         return transmits | has_smooth | (reflection_ ? reflection_->flags() : 0u);
     }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        if (wo.z * wi.z < 0.f)
-            return transmittance_->eval(at.uv, w) *
-                   (scale_ * through(wo.z) * through(wi.z) * std::abs(wi.z));
-        return reflection_ ? reflection_->eval(at, outside(wo, wo), outside(wo, wi), w)
-                           : Spectral(0.f);
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        const float t = share(at);
-        if (wo.z * wi.z < 0.f) return t * std::numbers::inv_pi_v<float> * std::abs(wi.z);
-        return reflection_ ? (1.f - t) * reflection_->pdf(at, outside(wo, wo), outside(wo, wi), w)
-                           : 0.f;
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        if (wo.z == 0.f) return std::nullopt;
-        const float t = share(at);
-        if (u1 < t) {
-            MaterialSample s;
-            s.wi = square_to_cosine_hemisphere(u2);
-            if (wo.z > 0.f) s.wi.z = -s.wi.z;
-            s.pdf = pdf(at, wo, s.wi, w);
-            if (!(s.pdf > 0.f)) return std::nullopt;
-            s.weight = eval(at, wo, s.wi, w) / s.pdf;
-            return s;
-        }
-        const float u = std::min((u1 - t) / (1.f - t), 0x1.fffffep-1f);
-        auto s = reflection_->sample(at, outside(wo, wo), u, u2, w);
-        if (!s) return s;
-        s->wi = outside(wo, s->wi);
-        s->pdf *= 1.f - t;
-        s->weight = s->weight / (1.f - t);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<DiffuseTransmitterBsdf>(
+            transmittance_->eval(point.uv, w), scale_, coat_, f0_, share(point),
+            reflection_ ? &reflection_->at(point, w, scratch) : nullptr);
     }
     bool is_spectral() const override {
         return transmittance_->is_spectral() || (reflection_ && reflection_->is_spectral());
     }
 
   private:
-    /// `w` as it is seen from the side of `wo`.
-    static Vec3f outside(const Vec3f& wo, const Vec3f& w) {
-        return wo.z < 0.f ? Vec3f{w.x, w.y, -w.z} : w;
-    }
-    float through(float cosine) const {
-        return 1.f - coat_ * fresnel_schlick(std::abs(cosine), f0_);
-    }
     /// With which probability to pass on; both are tried wherever both may be.
     float share(const SurfacePoint& at) const {
         return reflection_ ? std::clamp(transmittance_->eval_scalar(at.uv), 0.1f, 0.9f) : 1.f;

@@ -5,29 +5,38 @@
 namespace nacre {
 namespace {
 
+class DiffuseBsdf final : public Bsdf {
+  public:
+    explicit DiffuseBsdf(Spectral reflectance) : model_{reflectance} {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return model_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
+    BsdfValue eval_pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        return {model_.eval(wi, wo) * wi.z, model_.pdf(wi, wo)};
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f u2) const override {
+        BsdfSample s;
+        s.wi = model_.sample(wo, u2);
+        s.pdf = model_.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.reflectance;
+        return s;
+    }
+
+  private:
+    Lambert<float, Spectral> model_;
+};
+
 class Diffuse final : public Material {
   public:
     explicit Diffuse(TexturePtr reflectance) : reflectance_(std::move(reflectance)) {}
 
     unsigned flags() const override { return reflects | has_smooth; }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        const Lambert<float, Spectral> model{reflectance_->eval(at.uv, w)};
-        return model.eval(wi, wo) * wi.z;
-    }
-    float pdf(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths&) const override {
-        return Lambert<float>{}.pdf(wi, wo);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float, Vec2f u2,
-                                         const Wavelengths& w) const override {
-        const Lambert<float> model{};
-        MaterialSample s;
-        s.wi = model.sample(wo, u2);
-        s.pdf = model.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = reflectance_->eval(at.uv, w);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<DiffuseBsdf>(reflectance_->eval(point.uv, w));
     }
     bool is_lambertian() const override { return true; }
     bool is_spectral() const override { return reflectance_->is_spectral(); }

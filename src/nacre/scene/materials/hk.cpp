@@ -21,6 +21,64 @@
 namespace nacre {
 namespace {
 
+class HanrahanKruegerBsdf final : public Bsdf {
+  public:
+    using Slab = HanrahanKrueger<float, Spectral, PhaseFunction>;
+    HanrahanKruegerBsdf(const Slab& slab, const Wavelengths& w) : slab_(slab), w_(w) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return slab_.eval(wi, wo) * std::abs(wi.z);
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        return choose(wo).scattered * slab_.pdf(wi, wo);
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        const Choice choice = choose(wo);
+        BsdfSample s;
+        if (u1 < choice.scattered) {
+            s.wi = slab_.sample(wo, u2);
+            s.pdf = choice.scattered * slab_.pdf(s.wi, wo);
+            if (!(s.pdf > 0.f)) return std::nullopt;
+            s.weight = slab_.eval(s.wi, wo) * (std::abs(s.wi.z) / s.pdf);
+            return s;
+        }
+        s.delta = true;
+        if (u1 < choice.scattered + choice.passed) {
+            s.wi = -wo;
+            s.pdf = choice.passed;
+            s.weight = slab_.unscattered(wo.z) / s.pdf;
+            s.null = true;
+            return s;
+        }
+        if (!(choice.mirrored > 0.f)) return std::nullopt;
+        s.wi = {-wo.x, -wo.y, wo.z};
+        s.pdf = choice.mirrored;
+        s.weight = Spectral(slab_.specular(wo.z) / s.pdf);
+        return s;
+    }
+    Spectral null_transmission(const Vec3f& wo) const override { return slab_.unscattered(wo.z); }
+
+  private:
+    /// Probabilities of what `sample` draws; they sum to 1 unless nothing comes back at all.
+    struct Choice {
+        float scattered, passed, mirrored;
+    };
+    /// In proportion to the power of each part; for the scattered part an upper bound, all that is
+    /// scattered at least once.
+    Choice choose(const Vec3f& wo) const {
+        const float mirrored = slab_.specular(wo.z), enters = 1.f - mirrored;
+        const Spectral through = slab_.unscattered(wo.z);
+        const float passed = mean(through, w_);
+        const float scattered = mean(slab_.albedo * (Spectral(enters) - through), w_);
+        const float all = mirrored + passed + scattered;
+        if (!(all > 0.f)) return {0.f, 0.f, 0.f};
+        return {scattered / all, passed / all, mirrored / all};
+    }
+
+    Slab slab_;
+    Wavelengths w_;
+};
+
 class HanrahanKruegerLayer final : public Material {
   public:
     HanrahanKruegerLayer(MediumPtr medium, float thickness, float eta)
@@ -29,74 +87,18 @@ class HanrahanKruegerLayer final : public Material {
     unsigned flags() const override {
         return reflects | transmits | has_smooth | has_null | (eta_ == 1.f ? 0u : has_delta);
     }
-    Spectral eval(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        return layer(w).eval(wi, wo) * std::abs(wi.z);
-    }
-    float pdf(const SurfacePoint&, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        const auto slab = layer(w);
-        return choose(slab, wo, w).scattered * slab.pdf(wi, wo);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint&, const Vec3f& wo, float u1, Vec2f u2,
-                                         const Wavelengths& w) const override {
-        const auto slab = layer(w);
-        const Choice choice = choose(slab, wo, w);
-        MaterialSample s;
-        if (u1 < choice.scattered) {
-            s.wi = slab.sample(wo, u2);
-            s.pdf = choice.scattered * slab.pdf(s.wi, wo);
-            if (!(s.pdf > 0.f)) return std::nullopt;
-            s.weight = slab.eval(s.wi, wo) * (std::abs(s.wi.z) / s.pdf);
-            return s;
-        }
-        s.delta = true;
-        if (u1 < choice.scattered + choice.passed) {
-            s.wi = -wo;
-            s.pdf = choice.passed;
-            s.weight = slab.unscattered(wo.z) / s.pdf;
-            s.null = true;
-            return s;
-        }
-        if (!(choice.mirrored > 0.f)) return std::nullopt;
-        s.wi = {-wo.x, -wo.y, wo.z};
-        s.pdf = choice.mirrored;
-        s.weight = Spectral(slab.specular(wo.z) / s.pdf);
-        return s;
-    }
-    Spectral null_transmission(const SurfacePoint&, const Vec3f& wo,
-                               const Wavelengths& w) const override {
-        return layer(w).unscattered(wo.z);
+    const Bsdf& at(const SurfacePoint&, const Wavelengths& w, BsdfScratch& scratch) const override {
+        const Spectral sigma_t = medium_->sigma_t->eval(w);
+        const Spectral clear(0.f);
+        // A clear layer stays clear however thick it is.
+        const HanrahanKruegerBsdf::Slab slab{medium_->albedo->eval(w),
+                                             select(sigma_t > clear, sigma_t * thickness_, clear),
+                                             medium_->phase, eta_};
+        return scratch.make<HanrahanKruegerBsdf>(slab, w);
     }
     bool is_spectral() const override { return medium_->is_spectral(); }
 
   private:
-    using Slab = HanrahanKrueger<float, Spectral, PhaseFunction>;
-
-    /// Probabilities of what `sample` draws; they sum to 1 unless nothing comes back at all.
-    struct Choice {
-        float scattered, passed, mirrored;
-    };
-
-    Slab layer(const Wavelengths& w) const {
-        const Spectral sigma_t = medium_->sigma_t->eval(w);
-        const Spectral clear(0.f);
-        // A clear layer stays clear however thick it is.
-        return {medium_->albedo->eval(w), select(sigma_t > clear, sigma_t * thickness_, clear),
-                medium_->phase, eta_};
-    }
-    /// In proportion to the power of each part; for the scattered part an upper bound, all that is
-    /// scattered at least once.
-    static Choice choose(const Slab& slab, const Vec3f& wo, const Wavelengths& w) {
-        const float mirrored = slab.specular(wo.z), enters = 1.f - mirrored;
-        const Spectral through = slab.unscattered(wo.z);
-        const float passed = mean(through, w);
-        const float scattered = mean(slab.albedo * (Spectral(enters) - through), w);
-        const float all = mirrored + passed + scattered;
-        if (!(all > 0.f)) return {0.f, 0.f, 0.f};
-        return {scattered / all, passed / all, mirrored / all};
-    }
-
     MediumPtr medium_;
     float thickness_, eta_;
 };

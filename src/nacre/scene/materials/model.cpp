@@ -18,42 +18,27 @@ struct Binding {
 
 class ModelMaterial final : public Material {
   public:
-    ModelMaterial(const Evaluator& evaluator, ValuesS constants, std::vector<Binding> bindings)
-        : evaluator_(evaluator), constants_(constants), bindings_(std::move(bindings)) {}
+    ModelMaterial(const Evaluator& evaluator, const ValuesS& constants,
+                  std::vector<Binding> bindings)
+        : evaluator_(evaluator),
+          count_(int(evaluator.description().parameters.size())),
+          constants_(constants),
+          bindings_(std::move(bindings)) {
+        const bool varies = std::any_of(bindings_.begin(), bindings_.end(), [](const Binding& b) {
+            return b.texture && !b.texture->is_constant();
+        });
+        if (varies) return;
+        kept_ = std::make_unique<BsdfScratch>();
+        in_bands_ = &evaluator_.bind(values({}, Wavelengths::rgb_bands()), *kept_);
+    }
 
     unsigned flags() const override {
         return reflects | has_smooth | (evaluator_.has_mirror() ? has_delta : 0u);
     }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        if (!(wo.z > 0.f && wi.z > 0.f)) return Spectral(0.f);
-        return evaluator_.eval(values(at, w), wi, wo) * wi.z;
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        if (!(wo.z > 0.f && wi.z > 0.f)) return 0.f;
-        const ValuesS v = values(at, w);
-        return evaluator_.pdf(v, wi, wo) * (1.f - evaluator_.mirror_probability(v, wo));
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        const ValuesS v = values(at, w);
-        const float mirror = evaluator_.mirror_probability(v, wo);
-        MaterialSample s;
-        if (u1 < mirror) {
-            s.wi = {-wo.x, -wo.y, wo.z};
-            s.pdf = mirror;
-            s.delta = true;
-            s.weight = evaluator_.mirror(v, wo) / mirror;
-            return s;
-        }
-        s.wi = evaluator_.sample(v, wo, (u1 - mirror) / (1.f - mirror), u2);
-        if (!(s.wi.z > 0.f)) return std::nullopt;
-        s.pdf = evaluator_.pdf(v, s.wi, wo) * (1.f - mirror);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = evaluator_.eval(v, s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        if (in_bands_ && w.mode == ColorMode::rgb_bands) return *in_bands_;
+        return evaluator_.bind(values(point.uv, w), scratch);
     }
     bool is_spectral() const override {
         return std::any_of(bindings_.begin(), bindings_.end(), [](const Binding& b) {
@@ -62,13 +47,13 @@ class ModelMaterial final : public Material {
     }
 
   private:
-    ValuesS values(const SurfacePoint& at, const Wavelengths& w) const {
-        ValuesS v = constants_;
+    ValuesS values(Vec2f uv, const Wavelengths& w) const {
+        ValuesS v(constants_, count_);
         for (const Binding& b : bindings_) {
             if (b.kind == ParameterKind::spectrum)
-                v.set_color(b.position, b.texture->eval(at.uv, w));
+                v.set_color(b.position, b.texture->eval(uv, w));
             else if (b.kind == ParameterKind::scalar)
-                v.set_scalar(b.position, std::clamp(b.texture->eval_scalar(at.uv), b.low, b.high));
+                v.set_scalar(b.position, std::clamp(b.texture->eval_scalar(uv), b.low, b.high));
             else
                 v.set_color(b.position,
                             w.mode == ColorMode::rgb_bands ? band_wavelengths() : w.lambda);
@@ -77,8 +62,12 @@ class ModelMaterial final : public Material {
     }
 
     const Evaluator& evaluator_;
+    int count_;
     ValuesS constants_;
     std::vector<Binding> bindings_;
+    // Bound once if no parameter varies over the surface: in RGB bands all paths see the same.
+    std::unique_ptr<BsdfScratch> kept_;
+    const Bsdf* in_bands_ = nullptr;
 };
 
 /// Reads the parameters of one model from a node.

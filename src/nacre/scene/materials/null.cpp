@@ -4,29 +4,28 @@
 namespace nacre {
 namespace {
 
-class Null final : public Material {
+class NullBsdf final : public DeltaBsdf {
   public:
-    unsigned flags() const override { return has_null; }
-    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f&,
-                  const Wavelengths&) const override {
-        return Spectral(0.f);
-    }
-    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f&, const Wavelengths&) const override {
-        return 0.f;
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint&, const Vec3f& wo, float, Vec2f,
-                                         const Wavelengths&) const override {
-        MaterialSample s;
+    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f) const override {
+        BsdfSample s;
         s.wi = -wo;
         s.weight = Spectral(1.f);
         s.pdf = 1.f;
         s.delta = s.null = true;
         return s;
     }
-    Spectral null_transmission(const SurfacePoint&, const Vec3f&,
-                               const Wavelengths&) const override {
-        return Spectral(1.f);
+    Spectral null_transmission(const Vec3f&) const override { return Spectral(1.f); }
+};
+
+class Null final : public Material {
+  public:
+    unsigned flags() const override { return has_null; }
+    const Bsdf& at(const SurfacePoint&, const Wavelengths&, BsdfScratch&) const override {
+        return everywhere_;
     }
+
+  private:
+    NullBsdf everywhere_;
 };
 
 }  // namespace

@@ -34,6 +34,51 @@ struct PlasticParameters {
     bool is_spectral() const { return diffuse->is_spectral() || specular->is_spectral(); }
 };
 
+class PlasticBsdf final : public Bsdf {
+  public:
+    PlasticBsdf(const PlasticParameters& parameters, float internal, Vec2f uv, const Wavelengths& w)
+        : p_(parameters),
+          base_{p_.diffuse->eval(uv, w), p_.eta, internal, p_.nonlinear},
+          uv_(uv),
+          w_(w) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return base_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        return wo.z > 0.f ? base_.pdf(wi, wo) * (1.f - mirror_probability(wo)) : 0.f;
+    }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        const float mirror = mirror_probability(wo);
+        BsdfSample s;
+        if (u1 < mirror) {
+            s.wi = {-wo.x, -wo.y, wo.z};
+            s.pdf = mirror;
+            s.delta = true;
+            s.weight = p_.specular->eval(uv_, w_) * (fresnel_dielectric(wo.z, p_.eta) / mirror);
+            return s;
+        }
+        s.wi = base_.sample(wo, u2);
+        s.pdf = base_.pdf(s.wi, wo) * (1.f - mirror);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = base_.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+
+  private:
+    float mirror_probability(const Vec3f& wo) const {
+        const float f = fresnel_dielectric(wo.z, p_.eta);
+        const float mirror = f * p_.specular_weight, matt = (1.f - f) * (1.f - p_.specular_weight);
+        return mirror + matt > 0.f ? mirror / (mirror + matt) : 0.f;
+    }
+
+    const PlasticParameters& p_;
+    Plastic<float, Spectral> base_;
+    Vec2f uv_;
+    Wavelengths w_;
+};
+
 class PlasticMaterial final : public Material {
   public:
     explicit PlasticMaterial(PlasticParameters parameters)
@@ -41,47 +86,39 @@ class PlasticMaterial final : public Material {
           internal_(static_cast<float>(diffuse_reflectance_internal(p_.eta))) {}
 
     unsigned flags() const override { return reflects | has_smooth | has_delta; }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        return base(at, w).eval(wi, wo) * wi.z;
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        return wo.z > 0.f ? base(at, w).pdf(wi, wo) * (1.f - mirror_probability(wo)) : 0.f;
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        const float mirror = mirror_probability(wo);
-        MaterialSample s;
-        if (u1 < mirror) {
-            s.wi = {-wo.x, -wo.y, wo.z};
-            s.pdf = mirror;
-            s.delta = true;
-            s.weight = p_.specular->eval(at.uv, w) * (fresnel_dielectric(wo.z, p_.eta) / mirror);
-            return s;
-        }
-        const auto m = base(at, w);
-        s.wi = m.sample(wo, u2);
-        s.pdf = m.pdf(s.wi, wo) * (1.f - mirror);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = m.eval(s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<PlasticBsdf>(p_, internal_, point.uv, w);
     }
     bool is_spectral() const override { return p_.is_spectral(); }
 
   private:
-    Plastic<float, Spectral> base(const SurfacePoint& at, const Wavelengths& w) const {
-        return {p_.diffuse->eval(at.uv, w), p_.eta, internal_, p_.nonlinear};
-    }
-    float mirror_probability(const Vec3f& wo) const {
-        const float f = fresnel_dielectric(wo.z, p_.eta);
-        const float mirror = f * p_.specular_weight, matt = (1.f - f) * (1.f - p_.specular_weight);
-        return mirror + matt > 0.f ? mirror / (mirror + matt) : 0.f;
-    }
-
     PlasticParameters p_;
     float internal_;
+};
+
+template <class Distribution>
+class RoughPlasticBsdf final : public Bsdf {
+  public:
+    using Model = RoughPlastic<Spectral, Distribution>;
+    explicit RoughPlasticBsdf(const Model& model) : model_(model) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return model_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        BsdfSample s;
+        s.wi = model_.sample(wo, u1, u2);
+        s.pdf = model_.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+
+  private:
+    Model model_;
 };
 
 template <class Distribution>
@@ -91,37 +128,20 @@ class RoughPlasticMaterial final : public Material {
         : p_(std::move(parameters)), roughness_(std::move(roughness)), boundary_(boundary) {}
 
     unsigned flags() const override { return reflects | has_smooth; }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        return model(at, w).eval(wi, wo) * wi.z;
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        return model(at, w).pdf(wi, wo);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        const auto m = model(at, w);
-        MaterialSample s;
-        s.wi = m.sample(wo, u1, u2);
-        s.pdf = m.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = m.eval(s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        using Model = RoughPlastic<Spectral, Distribution>;
+        return scratch.make<RoughPlasticBsdf<Distribution>>(
+            Model{roughness_.at<Distribution>(point.uv),
+                  {p_.diffuse->eval(point.uv, w), p_.eta, boundary_.internal, p_.nonlinear},
+                  p_.specular->eval(point.uv, w),
+                  &boundary_,
+                  p_.specular_weight,
+                  roughness_.sampling});
     }
     bool is_spectral() const override { return p_.is_spectral(); }
 
   private:
-    RoughPlastic<Spectral, Distribution> model(const SurfacePoint& at, const Wavelengths& w) const {
-        return {roughness_.at<Distribution>(at.uv),
-                {p_.diffuse->eval(at.uv, w), p_.eta, boundary_.internal, p_.nonlinear},
-                p_.specular->eval(at.uv, w),
-                &boundary_,
-                p_.specular_weight,
-                roughness_.sampling};
-    }
-
     PlasticParameters p_;
     Roughness roughness_;
     RoughBoundary boundary_;

@@ -11,6 +11,32 @@ namespace nacre {
 namespace {
 
 template <class Distribution>
+class RoughDielectricBsdf final : public Bsdf {
+  public:
+    using Model = RoughDielectric<float, Spectral, Distribution>;
+    explicit RoughDielectricBsdf(const Model& model) : model_(model) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return model_.eval(wi, wo) * std::abs(wi.z);
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (wo.z == 0.f) return std::nullopt;
+        BsdfSample s;
+        s.wi = model_.sample(wo, u1, u2);
+        if (s.wi.z == 0.f) return std::nullopt;
+        s.pdf = model_.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.eval(s.wi, wo) * (std::abs(s.wi.z) / s.pdf);
+        if (s.wi.z * wo.z < 0.f) s.eta = wo.z > 0.f ? model_.eta : 1.f / model_.eta;
+        return s;
+    }
+
+  private:
+    Model model_;
+};
+
+template <class Distribution>
 class RoughDielectricMaterial final : public Material {
   public:
     RoughDielectricMaterial(float eta, Roughness roughness, TexturePtr reflectance,
@@ -21,26 +47,12 @@ class RoughDielectricMaterial final : public Material {
           transmittance_(std::move(transmittance)) {}
 
     unsigned flags() const override { return reflects | transmits | has_smooth; }
-    Spectral eval(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-                  const Wavelengths& w) const override {
-        return model(at, w).eval(wi, wo) * std::abs(wi.z);
-    }
-    float pdf(const SurfacePoint& at, const Vec3f& wo, const Vec3f& wi,
-              const Wavelengths& w) const override {
-        return model(at, w).pdf(wi, wo);
-    }
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1,
-                                         Vec2f u2, const Wavelengths& w) const override {
-        if (wo.z == 0.f) return std::nullopt;
-        const auto m = model(at, w);
-        MaterialSample s;
-        s.wi = m.sample(wo, u1, u2);
-        if (s.wi.z == 0.f) return std::nullopt;
-        s.pdf = m.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = m.eval(s.wi, wo) * (std::abs(s.wi.z) / s.pdf);
-        if (s.wi.z * wo.z < 0.f) s.eta = wo.z > 0.f ? eta_ : 1.f / eta_;
-        return s;
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        using Model = RoughDielectric<float, Spectral, Distribution>;
+        return scratch.make<RoughDielectricBsdf<Distribution>>(
+            Model{roughness_.at<Distribution>(point.uv), eta_, reflectance_->eval(point.uv, w),
+                  transmittance_->eval(point.uv, w), roughness_.sampling});
     }
     float rough_boundary_eta() const override {
         const auto is = [](const Texture& t, float value) {
@@ -55,12 +67,6 @@ class RoughDielectricMaterial final : public Material {
     }
 
   private:
-    RoughDielectric<float, Spectral, Distribution> model(const SurfacePoint& at,
-                                                         const Wavelengths& w) const {
-        return {roughness_.at<Distribution>(at.uv), eta_, reflectance_->eval(at.uv, w),
-                transmittance_->eval(at.uv, w), roughness_.sampling};
-    }
-
     float eta_;
     Roughness roughness_;
     TexturePtr reflectance_, transmittance_;

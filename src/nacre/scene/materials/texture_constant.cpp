@@ -16,6 +16,7 @@ class ConstantTexture final : public Texture {
     float eval_scalar(Vec2f) const override { return scalar_; }
     float max() const override { return spectrum_->max(); }
     float mean() const override { return scalar_; }
+    bool is_constant() const override { return true; }
     bool is_spectral() const override { return spectrum_->is_spectral(); }
 
   private:

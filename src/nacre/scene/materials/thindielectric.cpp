@@ -12,6 +12,45 @@
 namespace nacre {
 namespace {
 
+class ThinDielectricBsdf final : public DeltaBsdf {
+  public:
+    ThinDielectricBsdf(const RelativeIndex& index, const Texture& reflectance,
+                       const Texture& transmittance, Vec2f uv, const Wavelengths& w)
+        : index_(index), reflectance_(reflectance), transmittance_(transmittance), uv_(uv), w_(w) {}
+
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f) const override {
+        const Spectral r = reflected(wo);
+        BsdfSample s;
+        s.delta = true;
+        if (u1 < r[0]) {
+            s.wi = {-wo.x, -wo.y, wo.z};
+            s.pdf = r[0];
+            s.weight = reflectance_.eval(uv_, w_) * r / s.pdf;
+            return s;
+        }
+        if (!(r[0] < 1.f)) return std::nullopt;
+        s.wi = -wo;
+        s.pdf = 1.f - r[0];
+        s.weight = transmittance_.eval(uv_, w_) * (1.f - r) / s.pdf;
+        s.null = true;
+        return s;
+    }
+    Spectral null_transmission(const Vec3f& wo) const override {
+        return transmittance_.eval(uv_, w_) * (1.f - reflected(wo));
+    }
+
+  private:
+    Spectral reflected(const Vec3f& wo) const {
+        const Spectral r = fresnel_dielectric(std::abs(wo.z), index_.eval(w_));
+        return 2.f * r / (1.f + r);
+    }
+
+    const RelativeIndex& index_;
+    const Texture &reflectance_, &transmittance_;
+    Vec2f uv_;
+    Wavelengths w_;
+};
+
 class ThinDielectric final : public Material {
   public:
     ThinDielectric(RelativeIndex index, TexturePtr reflectance, TexturePtr transmittance)
@@ -20,35 +59,10 @@ class ThinDielectric final : public Material {
           transmittance_(std::move(transmittance)) {}
 
     unsigned flags() const override { return reflects | has_delta | has_null; }
-    Spectral eval(const SurfacePoint&, const Vec3f&, const Vec3f&,
-                  const Wavelengths&) const override {
-        return Spectral(0.f);
-    }
-    float pdf(const SurfacePoint&, const Vec3f&, const Vec3f&, const Wavelengths&) const override {
-        return 0.f;
-    }
-
-    std::optional<MaterialSample> sample(const SurfacePoint& at, const Vec3f& wo, float u1, Vec2f,
-                                         const Wavelengths& w) const override {
-        const Spectral r = reflected(wo, w);
-        MaterialSample s;
-        s.delta = true;
-        if (u1 < r[0]) {
-            s.wi = {-wo.x, -wo.y, wo.z};
-            s.pdf = r[0];
-            s.weight = reflectance_->eval(at.uv, w) * r / s.pdf;
-            return s;
-        }
-        if (!(r[0] < 1.f)) return std::nullopt;
-        s.wi = -wo;
-        s.pdf = 1.f - r[0];
-        s.weight = transmittance_->eval(at.uv, w) * (1.f - r) / s.pdf;
-        s.null = true;
-        return s;
-    }
-    Spectral null_transmission(const SurfacePoint& at, const Vec3f& wo,
-                               const Wavelengths& w) const override {
-        return transmittance_->eval(at.uv, w) * (1.f - reflected(wo, w));
+    const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
+                   BsdfScratch& scratch) const override {
+        return scratch.make<ThinDielectricBsdf>(index_, *reflectance_, *transmittance_, point.uv,
+                                                w);
     }
     bool is_spectral() const override {
         return index_.is_dispersive() || reflectance_->is_spectral() ||
@@ -56,11 +70,6 @@ class ThinDielectric final : public Material {
     }
 
   private:
-    Spectral reflected(const Vec3f& wo, const Wavelengths& w) const {
-        const Spectral r = fresnel_dielectric(std::abs(wo.z), index_.eval(w));
-        return 2.f * r / (1.f + r);
-    }
-
     RelativeIndex index_;
     TexturePtr reflectance_, transmittance_;
 };
