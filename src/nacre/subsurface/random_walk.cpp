@@ -6,7 +6,6 @@
 #include <array>
 #include <limits>
 
-#include "nacre/layers/adding_doubling.h"
 #include "nacre/math/sampling.h"
 #include "nacre/optics/fresnel_moments.h"
 #include "nacre/render/profile_tables.h"
@@ -21,19 +20,6 @@ namespace {
 constexpr int most_strangers = 64;
 
 }  // namespace
-
-double half_space_albedo(const ProfileMedium& m, int nodes) {
-    const LayerStack half_space{{{.sigma_s = m.sigma_s,
-                                  .sigma_a = m.sigma_a,
-                                  .g = m.g,
-                                  .thickness = std::numeric_limits<double>::infinity(),
-                                  .eta = m.eta}},
-                                1.,
-                                m.eta};
-    const double cosine[] = {1.};
-    const LayerTotals t = adding_doubling(half_space, cosine, {}, {.nodes = nodes}).diffuse;
-    return std::clamp((t.reflectance - t.specular) / (1. - t.specular), 0., 1.);
-}
 
 RandomWalkMedium<double> random_walk_medium(const ProfileMedium& m, FreePath keep) {
     const double a = half_space_albedo(m);

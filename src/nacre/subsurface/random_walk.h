@@ -27,17 +27,12 @@
 // the balance heuristic (render/path_state.h).
 #include "nacre/bssrdf/albedo_inversion.h"
 #include "nacre/bssrdf/chiang2016.h"
-#include "nacre/bssrdf/medium.h"
+#include "nacre/bssrdf/half_space.h"
 #include "nacre/render/path_state.h"
 #include "nacre/spectrum/bands.h"
 #include "nacre/technique/technique.h"
 
 namespace nacre {
-
-/// A, within [0, 1]: what a half space returns of the even light that entered it, to about 1e-4
-/// unless `nodes` says how many the quadrature has (AddingDoublingOptions). Henyey and Greenstein's
-/// phase function.
-double half_space_albedo(const ProfileMedium& medium, int nodes = 0);
 
 /// Coefficients of the walk in a medium (sigma_t' > 0), in its unit.
 RandomWalkMedium<double> random_walk_medium(const ProfileMedium& medium, FreePath keep);

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <numeric>
 
+#include "nacre/bssrdf/half_space.h"
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/math/quadrature.h"
 #include "nacre/math/sampling.h"
 #include "nacre/render/boundary_samples.h"
-#include "nacre/subsurface/random_walk.h"
 
 namespace nacre {
 namespace {
