@@ -10,6 +10,7 @@
 #include "nacre/math/quadrature.h"
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
+#include "tests/support/statistics.h"
 
 namespace nacre::test {
 
@@ -53,27 +54,16 @@ inline ChiSquareResult chi_square(const std::function<std::optional<Vec3f>(Rando
         }
     result.drawn = double(drawn) / samples;
 
-    double statistic = 0., pooled_expected = 0., pooled_found = 0.;
-    int terms = 0;
-    const auto add = [&](double e, double o) {
-        statistic += (o - e) * (o - e) / e;
-        ++terms;
-    };
     expected.push_back(std::max(0., 1. - result.integral) * samples);
     found.push_back(samples - drawn);
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        if (expected[i] >= 5.) {
-            add(expected[i], found[i]);
-        } else {
-            pooled_expected += expected[i];
-            pooled_found += found[i];
-        }
-    }
-    if (pooled_expected >= 1.)
-        add(pooled_expected, pooled_found);
-    else if (pooled_found > pooled_expected + 6. * std::sqrt(pooled_expected) + 6.)
+    PearsonStatistic statistic(found, expected);
+    const double pooled = statistic.pooled_expected;
+    if (pooled >= 1.)
+        statistic.add_pooled();
+    else if (statistic.pooled_observed > pooled + 6. * std::sqrt(pooled) + 6.)
         return result;  // directions where there is no density at all
-    result.p = terms > 1 ? gamma_q(0.5 * (terms - 1), 0.5 * statistic) : 1.;
+    const int terms = statistic.cells;
+    result.p = terms > 1 ? gamma_q(0.5 * (terms - 1), 0.5 * statistic.value) : 1.;
     return result;
 }
 

@@ -2,6 +2,7 @@
 // G_att and S_att: the share of facets that others neither shadow from the light nor mask from the
 // viewer.
 #include "nacre/illumination/lighting.h"
+#include "nacre/reflectance/microfacet.h"
 
 namespace nacre::illumination {
 
@@ -29,11 +30,7 @@ D slope_ratio(const Vec3<D>& w, D m) {
 /// form, with Lambda = exp(-a^2) / (2 a sqrt(pi)) - erfc(a) / 2 and a = cot(theta) / m.
 template <class D>
 D geometric_sancer(const Vec3<D>& wi, const Vec3<D>& wo, D m) {
-    using std::erfc, std::exp;
-    const auto lambda = [&](const Vec3<D>& w) {
-        const D a = slope_ratio(w, m);
-        return D(exp(-a * a) / (D(2. * std::sqrt(std::numbers::pi)) * a) - D(0.5) * erfc(a));
-    };
+    const auto lambda = [&](const Vec3<D>& w) { return smith_beckmann_lambda(slope_ratio(w, m)); };
     return D(1) / (D(1) + lambda(wi) + lambda(wo));
 }
 
@@ -43,10 +40,9 @@ D geometric_sancer(const Vec3<D>& wi, const Vec3<D>& wo, D m) {
 /// "Smith and Bruce" of Bruce G. Smith.
 template <class D>
 D self_shadowing_smith(const Vec3<D>& w, D m) {
-    using std::erfc, std::exp;
-    const D a = slope_ratio(w, m), e = erfc(a);
-    const D lambda = D(0.5) * (exp(-a * a) / (D(std::sqrt(std::numbers::pi)) * a) - e);
-    return (D(1) - D(0.5) * e) / (D(1) + lambda);
+    using std::erfc;
+    const D a = slope_ratio(w, m);
+    return (D(1) - D(0.5) * erfc(a)) / (D(1) + smith_beckmann_lambda(a));
 }
 
 }  // namespace nacre::illumination

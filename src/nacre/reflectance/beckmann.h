@@ -3,13 +3,14 @@
 //
 //   P. Beckmann, A. Spizzichino 1963, The Scattering of Electromagnetic Waves from Rough Surfaces.
 //   B. Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces, EGSR, eq.
-//   25-29. E. Heitz 2014, Understanding the Masking-Shadowing Function, JCGT 3(2), section 5
-//   (anisotropy). E. Heitz, E. d'Eon 2014, Importance Sampling Microfacet-Based BSDFs using the
-//   Distribution of Visible Normals, EGSR.
+//   25-29.
+//   E. Heitz 2014, Understanding the Masking-Shadowing Function, JCGT 3(2), section 5 (anisotropy).
+//   E. Heitz, E. d'Eon 2014, Importance Sampling Microfacet-Based BSDFs using the Distribution of
+//   Visible Normals, EGSR.
 //
 //   D(h) = exp(-(hx^2/ax^2 + hy^2/ay^2) / hz^2) / (pi ax ay hz^4)
-//   Lambda(w) = (erf(a) - 1 + exp(-a^2) / (a sqrt(pi))) / 2,  a = |wz| / sqrt(ax^2 wx^2 + ay^2
-//   wy^2)
+//   Lambda(w) = (erf(a) - 1 + exp(-a^2) / (a sqrt(pi))) / 2,
+//               a = |wz| / sqrt(ax^2 wx^2 + ay^2 wy^2)
 //
 // Parameters: alpha_x, alpha_y > 0, sqrt(2) times the standard deviation of the slopes along x and
 // y. Lambda is exact; the rational fit of Walter et al. 2007 (eq. 27), used by many renderers, is

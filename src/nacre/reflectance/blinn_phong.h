@@ -3,8 +3,8 @@
 //
 //   J. F. Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77;
 //   normalisation: F. Giesen 2009, Phong Normalization Factors.
-//   normalized  f = kd/pi + ks (n+2)(n+4) / (8 pi (2^(-n/2) + n)) (n.h)^n
-//   classic     f = kd/pi + ks (n.h)^n / wi.z
+//
+// The formulas are in the description below.
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/cosine_lobe.h"
 

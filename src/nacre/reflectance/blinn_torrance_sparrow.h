@@ -2,12 +2,10 @@
 // Blinn 1977: Torrance and Sparrow's facets for computer graphics.
 //
 //   J. F. Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77.
-//   f = kd/pi + ks D G F / (wi.z wo.z): the intensity k_s D G F / (n.v) of the paper over n.l.
-//   D has the peak 1 and is one half at the angle beta from the normal:
-//   phong             t^Ns,                              Ns = -ln 2 / ln cos(beta)
-//   torrance_sparrow  exp(-(C1 theta)^2),                C1 = sqrt(ln 2) / beta
-//   trowbridge_reitz  (C2^2 / (t^2 (C2^2 - 1) + 1))^2,   C2^2 = (1 - c^2)/(sqrt 2 - c^2)
-//   c = cos(beta), t = cos(theta) = h.z; G: v-cavities, as in torrance_sparrow.h
+//
+// The intensity k_s D G F / (n.v) of the paper over n.l, whose D has the peak 1 and is one half at
+// the angle beta from the normal. The formulas are in the description below;
+// G: v-cavities, as in torrance_sparrow.h.
 #include "nacre/reflectance/facets.h"
 
 namespace nacre {

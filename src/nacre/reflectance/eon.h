@@ -3,11 +3,8 @@
 //
 //   J. Portsmouth, P. Kutz, S. Hill 2025, EON: A Practical Energy-Preserving Rough Diffuse BRDF,
 //   JCGT 14(1); single scattering: Y. Fujii, A Tiny Improvement of Oren-Nayar Reflectance Model.
-//   s = wi.wo - wi.z wo.z, t = max(wi.z, wo.z) if s > 0 else 1, A = 1/(1 + (1/2 - 2/(3 pi)) r)
-//   fujii  f = rho/pi A (1 + r s/t)
-//   eon    f = fujii + rho_ms/pi (1 - E(wi.z)) (1 - E(wo.z)) / (1 - Em),
-//          E the albedo of fujii for rho = 1, Em = A (1 + (2/3 - 28/(15 pi)) r) its mean,
-//          rho_ms = rho^2 Em / (1 - rho (1 - Em))
+//
+// The formulas are in the description below.
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/model.h"
 

@@ -14,6 +14,7 @@
 #include "nacre/math/quadrature.h"
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/facet_fresnel.h"
+#include "nacre/reflectance/microfacet.h"
 
 namespace nacre {
 
@@ -122,9 +123,8 @@ S equivalent_slope(FacetDistribution kind, S m) {
 /// Lambda of B. G. Smith 1967: hidden over seen projected area, from m tan(theta).
 template <class V>
 V lambda_beckmann(const V& m_tan) {
-    using std::erfc, std::exp;
-    const V inverse = V(1) / m_tan, a = select(inverse < V(30), inverse, V(30));
-    return exp(-a * a) / (V(2. / std::numbers::inv_sqrtpi) * a) - V(0.5) * erfc(a);
+    const V inverse = V(1) / m_tan;
+    return smith_beckmann_lambda(V(select(inverse < V(30), inverse, V(30))));
 }
 template <class V>
 V lambda_trowbridge_reitz(const V& m_tan) {

@@ -4,10 +4,10 @@
 //   T. S. Trowbridge, K. P. Reitz 1975, Average Irregularity Representation of a Rough Surface for
 //   Ray Reflection, JOSA 65(5).
 //   B. Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces, EGSR, eq.
-//   33-36. E. Heitz 2014, Understanding the Masking-Shadowing Function, JCGT 3(2), section 5
-//   (anisotropy). J. Dupuy, A. Benyoub 2023, Sampling Visible GGX Normals with Spherical Caps, CGF
-//   42(8); the same density as E. Heitz 2018, Sampling the GGX Distribution of Visible Normals,
-//   JCGT 7(4).
+//   33-36.
+//   E. Heitz 2014, Understanding the Masking-Shadowing Function, JCGT 3(2), section 5 (anisotropy).
+//   J. Dupuy, A. Benyoub 2023, Sampling Visible GGX Normals with Spherical Caps, CGF 42(8); the
+//   same density as E. Heitz 2018, Sampling the GGX Distribution of Visible Normals, JCGT 7(4).
 //
 //   D(h) = 1 / (pi ax ay (hx^2/ax^2 + hy^2/ay^2 + hz^2)^2)
 //   Lambda(w) = (sqrt(1 + 1/a^2) - 1) / 2,  a = |wz| / sqrt(ax^2 wx^2 + ay^2 wy^2)

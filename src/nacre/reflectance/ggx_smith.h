@@ -6,8 +6,8 @@
 //   Distribution of Visible Normals, JCGT 7(4).
 //   C. Kulla, A. Conty 2017, Revisiting Physically Based Shading at Imageworks, SIGGRAPH course;
 //   after C. Kelemen, L. Szirmay-Kalos 2001.
-//   f = kd/pi + ks (F D G / (4 wi.z wo.z) + F_ms (1 - E(wi)) (1 - E(wo)) / (pi (1 - E_avg)))
-//   D, L: ggx.h;  E, E_avg: ggx_albedo.h
+//
+// The formulas are in the description below; D and L: ggx.h; E and E_avg: ggx_albedo.h.
 #include "nacre/math/quadrature.h"
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/facet_fresnel.h"

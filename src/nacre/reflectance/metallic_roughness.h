@@ -6,8 +6,8 @@
 //   KHR_materials_ior, KHR_materials_specular (Khronos 2021).
 //   P. Shirley, B. Smits, H. Hu, E. Lafortune 1997, A Practitioners' Assessment of Light Reflection
 //   Models, Pacific Graphics, section 4 (coupling=shirley).
-//   f = metallic base S + (1 - metallic) (base C/pi + D G F / (4 wi.z wo.z))
-//   D, L: ggx.h with alpha = roughness^2;  G = 1/(1 + L(wi) + L(wo))
+//
+// The formulas are in the description below; D and L: ggx.h, with alpha = roughness^2.
 #include "nacre/math/warp.h"
 #include "nacre/optics/fresnel.h"
 #include "nacre/reflectance/ggx.h"

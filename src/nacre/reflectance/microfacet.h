@@ -34,6 +34,14 @@ Vec3<D> normal_of_polar_slope(D r, D u, A alpha_x, A alpha_y) {
 
 }  // namespace microfacet_detail
 
+/// Smith's Lambda of Beckmann's distribution, hidden over seen projected area, by a =
+/// cot(theta) / alpha > 0; for small alpha a may be bounded by 30, from where on it is zero.
+template <class V>
+V smith_beckmann_lambda(const V& a) {
+    using std::erfc, std::exp;
+    return exp(-a * a) / (V(2. / std::numbers::inv_sqrtpi) * a) - V(0.5) * erfc(a);
+}
+
 /// Share of the facets of normal h that `w` sees; 0 where w is behind the facet or the facet's
 /// front is on the other side of the surface than w.
 template <class Distribution, class D>

@@ -2,13 +2,9 @@
 // Oren-Nayar: a matt surface of V-shaped cavities with Lambertian facets.
 //
 //   M. Oren, S. K. Nayar 1994, Generalization of Lambert's Reflectance Model, SIGGRAPH 94, eq.
-//   27-30. alpha = max(ti, to), beta = min(ti, to), p = phi_i - phi_o, s2 = sigma^2 qualitative  f
-//   = rho/pi (A + B max(0, cos p) sin(alpha) tan(beta)),
-//                A = 1 - s2/(2 (s2 + 0.33)), B = 0.45 s2/(s2 + 0.09)
-//   full         f = rho/pi (C1 + cos p C2 tan(beta) + (1 - |cos p|) C3 tan((alpha+beta)/2))
-//                    + 0.17 rho^2/pi s2/(s2 + 0.13) (1 - cos p (2 beta/pi)^2),
-//                C1 = A, C2 = B (sin(alpha) - [cos p < 0] (2 beta/pi)^3),
-//                C3 = 0.125 s2/(s2 + 0.09) (4 alpha beta/pi^2)^2
+//   27-30.
+//
+// The formulas of both forms are in the description below, by the angles of incidence.
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/model.h"
 
@@ -48,9 +44,10 @@ inline const ModelDescription& oren_nayar_description() {
                         .high = 1.5707963267948966,
                         .otherwise = 0.3}},
         // Albedos rise towards grazing incidence, where alpha = pi/2 and the integrals over beta
-        // and p are constants: full      rho (A + 0.215386 B + 0.642183 C) + rho^2 E,
-        //                                C = s2/8/(s2 + 0.09), E = 0.17 s2/(s2 + 0.13);
-        // qualitative                    rho (A + B/2).
+        // and p are constants:
+        //   full         rho (A + 0.215386 B + 0.642183 C) + rho^2 E,
+        //                C = s2/8/(s2 + 0.09), E = 0.17 s2/(s2 + 0.13)
+        //   qualitative  rho (A + B/2)
         .behaviours =
             {{.options = "variant=full",
               .energy_note = "the most, 0.9996, is approached at grazing incidence for sigma = "

@@ -3,9 +3,9 @@
 //
 //   Bui Tuong Phong 1975, Illumination for Computer Generated Pictures, CACM 18(6); as a BRDF:
 //   R. R. Lewis 1994, Making Shaders More Physically Plausible, Computer Graphics Forum 13(2).
-//   modified  f = kd/pi + ks (n+2)/(2 pi) [R.wo]+^n          (Lewis)
-//   classic   f = kd/pi + ks [R.wo]+^n / wi.z                (Phong's intensity over light cos)
-//   R = wi mirrored about the normal
+//
+// The formulas are in the description below: Lewis' form, and Phong's intensity over the light's
+// cosine.
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/cosine_lobe.h"
 

@@ -2,9 +2,10 @@
 // Plastic: a matt base below a smooth dielectric boundary. This is the matt part; the mirror part
 // is the boundary's Fresnel reflectance.
 //
-//   The plastic of Mitsuba (W. Jakob), which is a Lambert base with the correction of J. L.
-//   Saunderson 1942, Calculation of the Color of Pigmented Plastics, JOSA 32(12): f = rho (1 -
-//   F(wi.z)) (1 - F(wo.z)) / (pi eta^2 (1 - r Fi))
+//   The plastic of Mitsuba (W. Jakob), which is a Lambert base with the correction of
+//   J. L. Saunderson 1942, Calculation of the Color of Pigmented Plastics, JOSA 32(12):
+//
+//   f = rho (1 - F(wi.z)) (1 - F(wo.z)) / (pi eta^2 (1 - r Fi))
 //
 // F is the reflectance of the boundary from outside, Fi that of diffuse light from inside
 // (fresnel_moments.h: 2 C_1 of eta). The series of reflections between base and boundary gives

@@ -3,9 +3,9 @@
 //
 //   C. Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering, CGF 13(3); 1993,
 //   Eurographics Workshop on Rendering.
-//   f = kd/pi + F G D / (4 pi wi.z wo.z)
-//   F = f0 + (1 - f0) (1-u)^5,  G = g(wi.z) g(wo.z), g(v) = v/(v - k v + k)
-//   D = m^3 x / (t (m x^2 - x^2 + m^2)^2), x = t + m - 1, 0 for x < 0, t = h.z, u = wi.h
+//
+// The formulas are in the description below.
+//
 // D fits exp(-tan^2/m^2)/(m^2 t^4) within 14 % of its peak for m <= 0.5; the integral of D t over
 // normals is pi exactly, so D/pi is a density.
 #include "nacre/math/warp.h"

@@ -3,8 +3,8 @@
 //
 //   K. E. Torrance, E. M. Sparrow 1967, Theory for Off-Specular Reflection from Roughened Surfaces,
 //   JOSA 57(9).
-//   f = kd/pi + ks F(u) D(theta) G / (4 wi.z wo.z),   h = (wi + wo)/|wi + wo|, cos(theta) = h.z,
-//   u = wi.h,  D = C exp(-theta^2 / (2 m^2)),  G = min(1, 2 h.z wi.z / u, 2 h.z wo.z / u)
+//
+// The formulas are in the description below.
 #include "nacre/reflectance/facets.h"
 
 namespace nacre {

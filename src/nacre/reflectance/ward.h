@@ -2,11 +2,10 @@
 // Ward: an anisotropic Gaussian of slopes.
 //
 //   G. J. Ward 1992, Measuring and Modeling Anisotropic Reflection, SIGGRAPH 92, eq. 5a, 5b;
-//   sampling and geometry: B. Walter 2005, Notes on the Ward BRDF, Cornell PCG-05-06. H = wi + wo,
-//   h = H/|H|, e = exp(-((h.x/au)^2 + (h.y/av)^2) / h.z^2) original  f = kd/pi + ks e / (4 pi au av
-//   sqrt(wi.z wo.z)) fast      the same with exp(-2 ((h.x/au)^2 + (h.y/av)^2) / (1 + h.z)) for e
-//   duer      f = kd/pi + ks e / (4 pi au av wi.z wo.z)
-//   gmd       f = kd/pi + ks e |H|^2 / (pi au av H.z^4)
+//   sampling and geometry: B. Walter 2005, Notes on the Ward BRDF, Cornell PCG-05-06.
+//
+// Four forms, whose formulas are in the description below. They are written with H = wi + wo, which
+// needs no trigonometry.
 #include "nacre/math/warp.h"
 #include "nacre/reflectance/microfacet.h"
 

@@ -74,7 +74,7 @@ struct LegacyShading::WayToLight {
     const Wavelengths& wavelengths;
     Spectral kept{1.f};
 
-    bool empty() const { return false; }
+    bool opaque_only() const { return false; }
     bool passes(const ShapeBinding& shape) const { return shading.is_transparent(shape); }
     bool segment(const Ray&, float) const { return true; }
     bool surface(const ShapeBinding&, const SurfacePoint& at, const Vec3f& d) {

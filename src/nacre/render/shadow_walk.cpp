@@ -11,7 +11,7 @@ struct SurfacesAlone {
     bool opaque;
     Spectral kept{1.f};
 
-    bool empty() const { return opaque; }
+    bool opaque_only() const { return opaque; }
     bool passes(const ShapeBinding& shape) const { return shape.material->flags() & has_null; }
     bool segment(const Ray&, float) const { return true; }
     bool surface(const ShapeBinding& shape, const SurfacePoint& at, const Vec3f& d) {

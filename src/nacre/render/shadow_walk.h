@@ -11,7 +11,7 @@ namespace nacre {
 bool has_null_surfaces(const Scene& scene);
 
 /// Whether the light is reached. `way` says what lies on it; it keeps what is left of the light:
-///   bool empty()                            nothing but opaque surfaces can lie on it
+///   bool opaque_only()                      nothing but opaque surfaces can lie on it
 ///   bool passes(const ShapeBinding&)        whether a surface lets anything pass
 ///   bool segment(const Ray&, float length)  the matter on a straight piece
 ///   bool surface(const ShapeBinding&, const SurfacePoint&, const Vec3f& d)
@@ -25,7 +25,7 @@ bool walk_to_light(const Scene& scene, const ShadowRay& shadow, RayCounts& count
     Ray ray{shadow.origin, shadow.direction, 0.f, shadow.distance * (1.f - margin)};
     while (ray.tmax > 0.f) {
         ++counts.rays;
-        if (way.empty()) return !scene.rays.occluded(ray);
+        if (way.opaque_only()) return !scene.rays.occluded(ray);
         const auto hit = scene.rays.intersect(ray);
         const ShapeBinding* shape = hit ? &scene.shapes[hit->shape] : nullptr;
         if (shape && !way.passes(*shape)) return false;

@@ -64,7 +64,7 @@ struct VolumePath::WayToLight {
     const Medium* medium;
     Connection c{Spectral(1.f), Spectral(1.f)};
 
-    bool empty() const { return !path.tracer_.has_null_ && !medium; }
+    bool opaque_only() const { return !path.tracer_.has_null_ && !medium; }
     bool passes(const ShapeBinding& shape) const { return shape.material->flags() & has_null; }
     bool segment(const Ray& ray, float length) {
         if (medium && medium->homogeneous()) {

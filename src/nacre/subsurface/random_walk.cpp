@@ -17,7 +17,7 @@ namespace nacre {
 namespace {
 
 // A free path meets at most so many surfaces of other shapes.
-constexpr int most_strangers = 64;
+constexpr int most_other_surfaces = 64;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ struct RandomWalk::Surroundings {
     }
     bool surface(const Point3f& p, const Vec3f& d, float s, float& t) {
         ray = {p, d, 0.f, s};
-        for (int i = 0; i < most_strangers; ++i) {
+        for (int i = 0; i < most_other_surfaces; ++i) {
             ++counts.rays;
             hit = of.scene_.rays.intersect(ray);
             if (!hit || hit->shape == of.shape_) break;

@@ -11,13 +11,13 @@ namespace nacre {
 namespace {
 
 // A ray that looks for one shape meets at most so many others.
-constexpr int most_strangers = 64;
+constexpr int most_other_surfaces = 64;
 
 /// Whether `p` is inside of a shape, if that is closed.
 bool is_inside(const Scene& scene, std::uint32_t shape, const Point3f& p) {
     const Vec3f d{0.36f, 0.48f, 0.8f};
     Ray ray{p, d};
-    for (int i = 0; i < most_strangers; ++i) {
+    for (int i = 0; i < most_other_surfaces; ++i) {
         const auto hit = scene.rays.intersect(ray);
         if (!hit) return false;
         const SurfacePoint at = scene.rays.surface_point(ray, *hit);
