@@ -22,7 +22,7 @@ struct Bunny {
     Bunny() {
         const std::filesystem::path file = NACRE_SHARED_DIR "/bench/bunny_watertight.obj";
         if (!std::filesystem::exists(file)) return;
-        const MeasuredMedium& marble = measured_medium("marble");
+        const MeasuredMedium& marble = measured_media().find("marble");
         for (int c = 0; c < 3; ++c)
             kernels.push_back(make_kernel(
                 "dipole", ProfileMedium::reduced(marble.sigma_s_prime[std::size_t(c)],

@@ -1,12 +1,12 @@
 #include "apps/cli/compare.h"
 
 #include <cstdlib>
-#include <fstream>
 
 #include "apps/cli/number_option.h"
 #include "nacre/math/error.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/text/split_words.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 
@@ -53,9 +53,8 @@ std::filesystem::path reference_store(const CompareOptions& o) {
 }
 
 std::string build_id() {
-    std::ifstream self("/proc/self/exe", std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(self), {}};
-    return fmt::format("{} (build {:08x})", version, hash_bytes(bytes) >> 32);
+    const std::string self = read_whole_file("/proc/self/exe").value_or("");
+    return fmt::format("{} (build {:08x})", version, hash_bytes(self) >> 32);
 }
 
 void PartProgress::show(const ExperimentProgress& p) {

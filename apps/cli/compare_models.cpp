@@ -10,6 +10,7 @@
 #include "nacre/report/experiment.h"
 #include "nacre/report/model_document.h"
 #include "nacre/report/report.h"
+#include "nacre/text/names.h"
 #include "nacre/text/split_words.h"
 #include "nacre/text/whole_file.h"
 
@@ -38,7 +39,7 @@ std::vector<ModelSpec> parse_models(const std::string& text) {
 FitMetric parse_metric(const std::string& text) {
     if (text == "log") return FitMetric::log;
     if (text == "cosine") return FitMetric::cosine;
-    throw InputError(fmt::format("--metric: '{}' is unknown; known are: log, cosine", text));
+    throw InputError("--metric: " + unknown_name("metric", text, {"log", "cosine"}));
 }
 
 void print_table(const ModelComparison& c) {

@@ -78,7 +78,7 @@ ExperimentOptions experiment_options(const CompareOptions& o) {
     options.build = build_id();
     options.fresh = o.fresh;
     for (const std::string_view name : split_words(o.peers)) {
-        const PeerDescription& peer = find_peer(name);
+        const PeerDescription& peer = peers().find(name);
         // Better known now than after all the techniques.
         if (!peer.find(""))
             throw InputError(fmt::format("--peer: {} is not installed; install it with: {}",

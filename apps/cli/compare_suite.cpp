@@ -8,6 +8,7 @@
 #include "nacre/math/error.h"
 #include "nacre/report/report.h"
 #include "nacre/report/suite.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {
@@ -24,7 +25,7 @@ std::string folder_name(const SuiteCase& c) {
 
 int compare_suite(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
     if (o.suite != "translucency")
-        throw InputError(fmt::format("--suite: '{}' is unknown; known are: translucency", o.suite));
+        throw InputError("--suite: " + unknown_name("suite", o.suite, {"translucency"}));
     for (const char* option : {"scene", "-D", "--mode", "--material", "--height-mm", "--peer"})
         if (app.count(option))
             throw InputError(fmt::format("--suite brings its own scenes: leave out {}", option));

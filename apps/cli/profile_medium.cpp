@@ -8,6 +8,7 @@
 #include "nacre/optics/media.h"
 #include "nacre/reflectance/registry.h"
 #include "nacre/scene/load.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {
@@ -18,7 +19,7 @@ std::size_t band_of(const std::string& text) {
     if (text.empty()) return 1;
     for (std::size_t i = 0; i < 3; ++i)
         if (text == bands[i] || text == bands[i].substr(0, 1)) return i;
-    throw InputError(fmt::format("--channel '{}' is unknown; known are: r, g, b", text));
+    throw InputError("--channel: " + unknown_name("band", text, {"red", "green", "blue"}));
 }
 
 }  // namespace

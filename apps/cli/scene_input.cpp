@@ -9,6 +9,7 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/demo_scene.h"
 #include "nacre/scene/load.h"
+#include "nacre/text/names.h"
 
 namespace nacre::cli {
 namespace {
@@ -26,7 +27,7 @@ std::optional<ColorMode> parse_mode(const std::string& text) {
     if (text.empty()) return {};
     if (text == "rgb") return ColorMode::rgb_bands;
     if (text == "spectral") return ColorMode::spectral;
-    throw InputError(fmt::format("--mode: '{}' is unknown; known are: rgb, spectral", text));
+    throw InputError("--mode: " + unknown_name("mode", text, {"rgb", "spectral"}));
 }
 
 std::map<std::string, std::string> parse_defines(const std::vector<std::string>& defines) {

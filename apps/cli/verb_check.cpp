@@ -1,6 +1,5 @@
 // nacre check: models against reference values and against their own claims.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/number_option.h"
@@ -9,6 +8,7 @@
 #include "nacre/math/error.h"
 #include "nacre/reflectance/check.h"
 #include "nacre/reflectance/registry.h"
+#include "nacre/text/whole_file.h"
 #include "nacre/vectors/check.h"
 
 namespace nacre::cli {
@@ -24,10 +24,10 @@ struct Options {
 };
 
 json parse_vectors(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) throw InputError(fmt::format("cannot read '{}'", path));
+    const auto text = read_whole_file(path);
+    if (!text) throw InputError(fmt::format("cannot read '{}'", path));
     try {
-        return json::parse(file);
+        return json::parse(*text);
     } catch (const json::exception& error) {
         throw InputError(fmt::format("'{}' is not JSON: {}", path, error.what()));
     }

@@ -1,7 +1,6 @@
 // nacre gallery: the pictures that answer the figures of the classic papers.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
 #include "apps/cli/interrupt.h"
 #include "apps/cli/number_option.h"
@@ -92,8 +91,7 @@ std::vector<Plate> choose(const std::vector<Plate>& all, const std::vector<std::
 
 /// The comment at the head of a scene file, on one line.
 std::string caption(const fs::path& file) {
-    std::ifstream in(file);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = read_whole_file(file).value_or("");
     constexpr std::string_view open = "<!--", close = "-->";
     if (!text.starts_with(open)) return {};
     std::istringstream words(text.substr(open.size(), text.find(close) - open.size()));

@@ -98,12 +98,12 @@ int list(bool json) {
     if (json) {
         ordered_json r;
         for (const auto& [kind, names] : named_models()) r[kind] = names;
-        for (const illumination::Description* m : illumination::descriptions())
+        for (const illumination::Description* m : illumination::models())
             r["illumination"].push_back(illumination_json(*m));
         for (const ProfileDescription* p : profiles()) r["profile"].push_back(profile_json(*p));
         for (const TechniqueDescription* t : techniques())
             r["technique"].push_back(technique_json(*t));
-        for (const MeasuredMedium& m : measured_media()) r["medium"].push_back(to_json(m));
+        for (const MeasuredMedium* m : measured_media()) r["medium"].push_back(to_json(*m));
         r["spectral_medium"].push_back(skin_json());
         fmt::print("{}\n", r.dump(2));
         return success;
@@ -116,7 +116,7 @@ int list(bool json) {
         fmt::print("\n");
     }
     fmt::print("illumination models (<integrator type=\"legacy\">), by number\n");
-    for (const illumination::Description* m : illumination::descriptions())
+    for (const illumination::Description* m : illumination::models())
         fmt::print("  {:>2} {:<22} {} ({}, {})\n", m->number, m->name, m->title, m->authors,
                    m->year);
     const auto line = [](const auto& m) {
@@ -129,9 +129,9 @@ int list(bool json) {
     fmt::print("\nmeasured media (--material), mm^-1 in red, green, blue\n");
     fmt::print("  {:<24} {:<26} {:<26} {}\n", "name", "reduced scattering", "absorption", "index");
     const auto triple = [](const Vec3f& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
-    for (const MeasuredMedium& m : measured_media())
-        fmt::print("  {:<24} {:<26} {:<26} {}\n", m.name, triple(m.sigma_s_prime),
-                   triple(m.sigma_a), m.eta);
+    for (const MeasuredMedium* m : measured_media())
+        fmt::print("  {:<24} {:<26} {:<26} {}\n", m->name, triple(m->sigma_s_prime),
+                   triple(m->sigma_a), m->eta);
     fmt::print("  {:<24} by wavelength; see 'nacre models show skin'\n", "skin");
     return success;
 }
@@ -205,17 +205,17 @@ int show(const std::string& name, bool json) {
             return print_page(json, {{"name", n}, {"kind", kind}},
                               fmt::format("{}: <{} type=\"{}\">\n", n, kind, n));
         }
-    for (const MeasuredMedium& m : measured_media()) {
-        if (!finder.is(m.name)) continue;
+    for (const MeasuredMedium* m : measured_media()) {
+        if (!finder.is(m->name)) continue;
         if (json)
-            fmt::print("{}\n", to_json(m).dump(2));
+            fmt::print("{}\n", to_json(*m).dump(2));
         else
-            show_medium(m);
+            show_medium(*m);
         return success;
     }
     if (finder.is("skin")) return print_page(json, skin_json(), skin_page());
     // Last, because some share their name with a material: those are asked for by number.
-    for (const illumination::Description* m : illumination::descriptions())
+    for (const illumination::Description* m : illumination::models())
         if (finder.is(m->name) || std::to_string(m->number) == name)
             return print_page(json, illumination_json(*m), illumination_page(*m));
     finder.fail(name);

@@ -130,7 +130,7 @@ TEST(Dipoles, ScaleWithTheCoefficients) {
 }
 
 TEST(Dipoles, RunOnFloatsAndPacks) {
-    const MeasuredMedium& m = measured_medium("skin1");
+    const MeasuredMedium& m = measured_media().find("skin1");
     const Vec3f s = m.sigma_s_prime, a = m.sigma_a;
     const Spectral scattering(s.x, s.y, s.z, 0.f), absorption(a.x, a.y, a.z, 0.f);
     const Dipole<Spectral> lanes(scattering, absorption, m.eta);

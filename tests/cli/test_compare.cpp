@@ -210,7 +210,7 @@ TEST_F(CompareVerb, MistakesOnTheCommandLineWriteNothing) {
          "4,16"},
         {"compare ball.xml --repeats 1", "--repeats: '1' is not a whole number from 2 to 10000"},
         {"compare ball.xml --cases ball", "--cases belongs to --suite, which is missing"},
-        {"compare --suite opacity", "--suite: 'opacity' is unknown; known are: translucency"},
+        {"compare --suite opacity", "--suite: unknown suite 'opacity'; known are: translucency"},
         {"compare --suite translucency --cases cube",
          "the suite has no 'cube'; its words are: ball, sheet, bowl, bust, slab, high, low, "
          "homogeneous, veined, front, side, back"},

@@ -24,7 +24,7 @@ TEST_F(SubsurfaceVerbs, ProfileAnswersWrongCommandLinesExactly) {
          "--sigma-a is the material's; leave it out"},
         {"profile dipole --sigma-s 1 --channel r", "--channel belongs to --material"},
         {"profile dipole --material marble --channel x",
-         "--channel 'x' is unknown; known are: r, g, b"},
+         "--channel: unknown band 'x'; known are: red, green, blue"},
         {"profile dipole --sigma-s -1",
          "translucent medium: sigma_s = -1 must be finite and at "
          "least 0"},

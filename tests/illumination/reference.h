@@ -74,10 +74,10 @@ struct Case {
             for (std::size_t i = 0; i < model.parameters.size(); ++i) {
                 const Parameter& p = model.parameters[i];
                 if (p.name != wanted) continue;
-                const double number = p.kind == Parameter::Kind::choice
-                                          ? find_choice(model, p, words.at(value))
+                const double number = p.kind == ParameterKind::choice
+                                          ? find_choice(model.name, p, words.at(value))
                                           : value.get<double>();
-                check_value(model, p, p.kind == Parameter::Kind::choice ? 0. : number);
+                check_range(model.name, p, number);
                 values.set(model, i, number);
                 return;
             }

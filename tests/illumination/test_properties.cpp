@@ -25,7 +25,7 @@ Lighting<double> some_lighting(Random& random) {
 
 TEST(IlluminationProperties, ModelsAreLinearInTheLight) {
     Random random(stream_key(1, 2));
-    for (const Description* model : descriptions()) {
+    for (const Description* model : models()) {
         if (model->part == Part::transparency) continue;
         const auto values = Values<double>::defaults(*model);
         for (int i = 0; i < 20; ++i) {
@@ -44,11 +44,11 @@ TEST(IlluminationProperties, ModelsAreLinearInTheLight) {
 TEST(IlluminationProperties, FourWavelengthsAreFourSingleOnes) {
     Random random(stream_key(3, 4));
     const Spectral light(1.f, 0.5f, 2.f, 0.25f), wavelength(450.f, 520.f, 600.f, 680.f);
-    for (const Description* model : descriptions()) {
+    for (const Description* model : models()) {
         if (model->part == Part::transparency) continue;
         auto four = Values<float, Spectral>::defaults(*model);
         for (std::size_t i = 0; i < model->parameters.size(); ++i)
-            if (model->parameters[i].kind == Parameter::Kind::spectrum)
+            if (model->parameters[i].kind == ParameterKind::spectrum)
                 four.spectra[i] *= Spectral(1.f, 0.9f, 0.8f, 0.7f);
         for (int sample = 0; sample < 10; ++sample) {
             const Lighting<double> exact = some_lighting(random);
@@ -77,7 +77,7 @@ TEST(IlluminationProperties, FourWavelengthsAreFourSingleOnes) {
 }
 
 TEST(IlluminationProperties, NothingComesFromLightsBehindTheSurface) {
-    for (const Description* model : descriptions()) {
+    for (const Description* model : models()) {
         if (model->part == Part::transparency || model->part == Part::ambient) continue;
         const Lighting<double> at{.wi = {0.6, 0., -0.8}, .wo = {0., 0.6, 0.8}};
         const double value = intensity(*model, Values<double>::defaults(*model), at);
@@ -98,7 +98,7 @@ TEST(IlluminationProperties, DistancesActAsPublished) {
         {9, 1. / 36.}, {10, 2. / 3.}, {11, 1.},      {12, 1. / 2.}, {13, 1.},     {14, 2. / 3.},
         {15, 1.},      {16, 2. / 3.}, {17, 1.},      {18, 1.},      {19, 1.},     {20, 1.}};
     for (const auto& [number, expected] : ratio) {
-        const Description& model = *descriptions()[std::size_t(number) - 1];
+        const Description& model = models().find(std::to_string(number));
         const auto values = Values<double>::defaults(model);
         EXPECT_NEAR(intensity(model, values, far) / intensity(model, values, near), expected, 1e-12)
             << model.name;
@@ -112,7 +112,7 @@ TEST(IlluminationProperties, DistancesActAsPublished) {
 
 TEST(IlluminationProperties, DescriptionsSayWhatTheFormulasUse) {
     Random random(stream_key(5, 6));
-    for (const Description* model : descriptions()) {
+    for (const Description* model : models()) {
         if (model->part == Part::transparency) continue;
         auto values = Values<double>::defaults(*model);
         if (model->number == 11) values.numbers[3] = 1.;  // else there is no attenuation
@@ -237,7 +237,7 @@ TEST(IlluminationProperties, TransparencyReachesItsEnds) {
 TEST(IlluminationProperties, ExtremeDirectionsGiveFiniteValues) {
     const Vec3f directions[] = {{0.f, 0.f, 1.f},   {1.f, 0.f, 0.f},  {-1.f, 0.f, 1e-7f},
                                 {0.f, 1.f, 1e-4f}, {0.f, 0.f, -1.f}, {-1.f, 0.f, -1e-7f}};
-    for (const Description* model : descriptions())
+    for (const Description* model : models())
         for (const Vec3f& wi : directions)
             for (const Vec3f& wo : directions) {
                 const auto values = Values<float>::defaults(*model);

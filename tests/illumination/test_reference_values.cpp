@@ -7,7 +7,7 @@ namespace {
 
 template <class D>
 void check_all_models(double tolerance) {
-    for (const Description* model : descriptions()) {
+    for (const Description* model : models()) {
         const auto& vectors = reference()["models"][fmt::format("m{:02}", model->number)];
         ASSERT_EQ(vectors.size(), 12u) << model->number;
         for (const auto& v : vectors) {

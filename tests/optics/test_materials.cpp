@@ -31,7 +31,7 @@ bool starts_with(const std::string& text, const std::string& start) {
 TEST(Media, Jensen2001AgreesWithTheReference) {
     int checked = 0;
     for (const auto& [name, row] : test::optics_reference()["materials_jensen2001"].items()) {
-        const MeasuredMedium& m = measured_medium(name);
+        const MeasuredMedium& m = measured_media().find(name);
         EXPECT_FLOAT_EQ(m.eta, float(row["eta"])) << name;
         ASSERT_TRUE(m.diffuse_reflectance) << name;
         for (std::size_t i = 0; i < 3; ++i, ++checked) {
@@ -46,14 +46,14 @@ TEST(Media, Jensen2001AgreesWithTheReference) {
 TEST(Media, PublishedReflectanceFollowsFromTheCoefficients) {
     // Total of the classical dipole (Jensen 2001): R_d = alpha'/2 (1 + e^(-4/3 A s)) e^(-s), s =
     // sqrt(3 (1 - alpha')).
-    for (const MeasuredMedium& m : measured_media()) {
-        if (!m.diffuse_reflectance) continue;
-        const double a = boundary_parameter(m.eta, BoundaryModel::fit);
+    for (const MeasuredMedium* m : measured_media()) {
+        if (!m->diffuse_reflectance) continue;
+        const double a = boundary_parameter(m->eta, BoundaryModel::fit);
         for (std::size_t i = 0; i < 3; ++i) {
-            const double alpha = m.sigma_s_prime[i] / m.sigma_t_prime()[i];
+            const double alpha = m->sigma_s_prime[i] / m->sigma_t_prime()[i];
             const double s = std::sqrt(3. * (1. - alpha));
             const double total = 0.5 * alpha * (1. + std::exp(-4. / 3. * a * s)) * std::exp(-s);
-            EXPECT_NEAR(total, (*m.diffuse_reflectance)[i], 0.03) << m.name << ' ' << i;
+            EXPECT_NEAR(total, (*m->diffuse_reflectance)[i], 0.03) << m->name << ' ' << i;
         }
     }
 }
@@ -66,7 +66,7 @@ TEST(Media, AgreeWithTheSharedTable) {
     std::size_t rows = 0;
     while (std::getline(file, line)) {
         const std::size_t quote = line.find('"', 1);
-        const MeasuredMedium& m = measured_medium(line.substr(1, quote - 1));
+        const MeasuredMedium& m = measured_media().find(line.substr(1, quote - 1));
         float v[6];
         ASSERT_EQ(std::sscanf(line.c_str() + line.find(',', quote + 2), ",%f,%f,%f,%f,%f,%f", v,
                               v + 1, v + 2, v + 3, v + 4, v + 5),
@@ -83,11 +83,11 @@ TEST(Media, AgreeWithTheSharedTable) {
 
 TEST(Media, AreFoundRegardlessOfCaseAndSpaces) {
     EXPECT_EQ(measured_media().size(), 47u);
-    EXPECT_EQ(measured_medium("skim milk").name, "Skimmilk");
-    EXPECT_EQ(measured_medium("HEAD & shoulders_shampoo").name, "Head & Shoulders Shampoo");
-    EXPECT_TRUE(starts_with(message([] { measured_medium("marbel"); }),
+    EXPECT_EQ(measured_media().find("skim milk").name, "Skimmilk");
+    EXPECT_EQ(measured_media().find("HEAD & shoulders_shampoo").name, "Head & Shoulders Shampoo");
+    EXPECT_TRUE(starts_with(message([] { measured_media().find("marbel"); }),
                             "unknown measured medium 'marbel'; did you mean 'Marble'?"));
-    EXPECT_TRUE(starts_with(message([] { measured_medium("plutonium"); }),
+    EXPECT_TRUE(starts_with(message([] { measured_media().find("plutonium"); }),
                             "unknown measured medium 'plutonium'; known are: Apple, "));
 }
 

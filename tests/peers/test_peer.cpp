@@ -35,8 +35,8 @@ class Peer : public PeerTest {
 };
 
 TEST_F(Peer, AreFoundByName) {
-    EXPECT_EQ(find_peer("Cycles Random-Walk").name, "cycles_random_walk");
-    EXPECT_EQ(error_of([] { find_peer("mitsubo"); }),
+    EXPECT_EQ(peers().find("Cycles Random-Walk").name, "cycles_random_walk");
+    EXPECT_EQ(error_of([] { peers().find("mitsubo"); }),
               "unknown peer 'mitsubo'; did you mean 'mitsuba'?");
 }
 
@@ -49,31 +49,31 @@ TEST_F(Peer, AbsentProgramsSayHowToInstallThem) {
         {"mitsuba", "Mitsuba 3 is not installed; install it with: pip install mitsuba"},
     };
     for (const auto& [name, message] : cases) {
-        EXPECT_FALSE(find_peer(name).find(request(scene).search_path)) << name;
-        EXPECT_EQ(error_of([&, n = name] { find_peer(n).run(request(scene)); }), message);
+        EXPECT_FALSE(peers().find(name).find(request(scene).search_path)) << name;
+        EXPECT_EQ(error_of([&, n = name] { peers().find(n).run(request(scene)); }), message);
     }
     // A Python without the module is no Mitsuba.
     write_program("python3", "exit 1");
-    EXPECT_FALSE(find_peer("mitsuba").find(request(scene).search_path));
+    EXPECT_FALSE(peers().find("mitsuba").find(request(scene).search_path));
     write_program("python3", "test \"$1 $2\" = '-c import mitsuba'");
-    EXPECT_EQ(find_peer("mitsuba").find(request(scene).search_path), folder_ / "bin/python3");
+    EXPECT_EQ(peers().find("mitsuba").find(request(scene).search_path), folder_ / "bin/python3");
 }
 
 TEST_F(Peer, RefusesPicturesThatOnlyNacreMakes) {
     write_program("blender", "exit 0");
     Scene scene = load(plane);
     scene.film.quantity = FilmQuantity::luminance;
-    EXPECT_EQ(error_of([&] { find_peer("cycles").run(request(scene)); }),
+    EXPECT_EQ(error_of([&] { peers().find("cycles").run(request(scene)); }),
               "Blender Cycles renders radiance only; leave 'quantity' of the film out of the "
               "scene");
     scene.film.quantity = FilmQuantity::radiance;
     scene.integrator.type = "legacy";
-    EXPECT_EQ(error_of([&] { find_peer("cycles").run(request(scene)); }),
+    EXPECT_EQ(error_of([&] { peers().find("cycles").run(request(scene)); }),
               "Blender Cycles has no illumination models from before the BRDF; compare scenes of "
               "integrator path or volpath");
     scene.integrator.type = "path";
     scene.integrator.max_depth = 1;
-    EXPECT_EQ(error_of([&] { find_peer("cycles").run(request(scene)); }),
+    EXPECT_EQ(error_of([&] { peers().find("cycles").run(request(scene)); }),
               "Blender Cycles always shows light that was scattered once; compare with a "
               "max_depth of 2 or more");
 }

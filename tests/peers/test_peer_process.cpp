@@ -15,7 +15,7 @@ TEST_F(PeerProcess, FailureShowsTheEndOfTheLog) {
     const Scene scene = load(plane);
     const PeerRequest asked = request(scene);
     try {
-        find_peer("cycles").run(asked);
+        peers().find("cycles").run(asked);
         FAIL() << "no error";
     } catch (const RunError& error) {
         EXPECT_EQ(std::string(error.what()), "cycles failed with exit status 3; the end of " +
@@ -29,7 +29,7 @@ TEST_F(PeerProcess, SuccessWithoutAPictureIsAFailure) {
     const Scene scene = load(plane);
     const PeerRequest asked = request(scene);
     write_image(Image(2, 2), asked.folder / "cycles.exr");  // of an earlier run
-    EXPECT_THROW(find_peer("cycles").run(asked), RunError);
+    EXPECT_THROW(peers().find("cycles").run(asked), RunError);
 }
 
 TEST_F(PeerProcess, StopEndsAProgramThatDoesNotListen) {
@@ -44,7 +44,7 @@ TEST_F(PeerProcess, StopEndsAProgramThatDoesNotListen) {
     });
     const auto start = std::chrono::steady_clock::now();
     try {
-        find_peer("cycles").run(asked);
+        peers().find("cycles").run(asked);
         ADD_FAILURE() << "no error";
     } catch (const RunError& error) {
         EXPECT_STREQ(error.what(), "cycles was stopped");

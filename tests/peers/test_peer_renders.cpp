@@ -102,7 +102,7 @@ void expect_closed_forms(const Image& picture) {
 class PeerRenders : public SceneFiles {
   protected:
     void expect_peer(const char* name) {
-        const PeerDescription& peer = find_peer(name);
+        const PeerDescription& peer = peers().find(name);
         if (!peer.find({}))
             GTEST_SKIP() << peer.title << " is not installed: " << peer.how_to_install;
         const auto file = write("scene.xml", closed_forms);

@@ -72,7 +72,7 @@ double formula(const Description& model, const Vec3d& eye, const Vec3d& p, doubl
 
 TEST_F(Legacy, EveryModelShowsItsFormula) {
     const Vec3d eye{0.3, 0.4, 5}, p{0.3, 0.4, std::sqrt(0.75)};
-    for (const Description* model : illumination::descriptions()) {
+    for (const Description* model : illumination::models()) {
         if (model->part == illumination::Part::transparency) continue;
         const Vec3d seen =
             look(legacy(std::to_string(model->number), xml::number("ambient", 0.25)) +
@@ -100,7 +100,7 @@ TEST_F(Legacy, APixelOfAPictureShowsTheFormula) {
     const RenderResult result = render(s, {});
     const double x = 120 * 2 / 801., y = 160 * 2 / 801.;
     const Vec3d p{x, y, std::sqrt(1 - x * x - y * y)}, eye{x, y, 5};
-    const auto& models = illumination::descriptions();
+    const auto& models = illumination::models();
     for (int c = 0; c < 3; ++c) {
         const double expected = 0.5 * 0.25 + 0.75 * formula(*models[2], eye, p, light_color[c], 0) +
                                 formula(*models[12], eye, p, light_color[c], 0);
@@ -303,17 +303,18 @@ TEST_F(Legacy, WrongParametersAreRefusedWithTheirPlace) {
     } cases[] = {
         {"", "<integrator type=\"legacy\"> needs a string 'model'"},
         {text("model", ""), "'model' is empty; name one, such as '3+13'"},
-        {text("model", "24"), "illumination models are numbered 1 to 23; got 24"},
+        {text("model", "24"), fmt::format("unknown illumination model '24'; known are: {}",
+                                          fmt::join(illumination::models().names(), ", "))},
         {text("model", "13+15"), "models 13 and 15 are of the same kind; name one of them"},
         {text("model", "13") + xml::number("ks", 2),
-         "'ks' of illumination model 13 (phong) must be within [0, 1]; got 2"},
+         "phong: ks = 2 is out of range: must lie within [0, 1]"},
         {text("model", "3") + xml::rgb("kd", {0.5, 1.5, 0}),
-         "'kd' of illumination model 3 (bouknight_diffuse) must be within [0, 1]; got 1.5"},
+         "bouknight_diffuse: kd = 1.5 is out of range: must lie within [0, 1]"},
         {text("model", "10") + xml::number("dk", 0),
-         "'dk' of illumination model 10 (foley_van_dam_diffuse) must be greater than 0; got 0"},
+         "foley_van_dam_diffuse: dk = 0 is out of range: must lie within (0, inf)"},
         {text("model", "18") + text("distribution", "ggx"),
-         "'distribution' of illumination model 18 (blinn_torrance_sparrow) must be one of phong, "
-         "torrance_sparrow, trowbridge_reitz; got 'ggx'"},
+         "blinn_torrance_sparrow: unknown distribution 'ggx'; known are: phong, torrance_sparrow, "
+         "trowbridge_reitz"},
         {text("model", "3") + xml::number("ks", 1),
          "<integrator type=\"legacy\"> has no parameter 'ks'"},
         {text("model", "3+21") + xml::flag("refraction", true),
@@ -344,7 +345,7 @@ TEST_F(Legacy, NeedsAModel) {
 
 // The gallery's scenes are named after the model that they show; all of the stage is lit.
 TEST_F(Legacy, TheGalleryShowsEveryModel) {
-    for (const Description* model : illumination::descriptions()) {
+    for (const Description* model : illumination::models()) {
         const std::string name = fmt::format("{:02}_{}.xml", model->number, model->name);
         const Scene s = load_scene(NACRE_SOURCE_DIR "/gallery/illumination/" + name);
         ASSERT_TRUE(s.integrator.legacy) << name;

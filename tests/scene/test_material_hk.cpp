@@ -101,7 +101,7 @@ TEST(HkMaterial, WaysToStateTheMediumAgree) {
     const auto value = [&](std::vector<SceneValue> values) {
         return test::bound(bsdf("hk", std::move(values)))->eval(wi, wo);
     };
-    const MeasuredMedium& marble = measured_medium("marble");
+    const MeasuredMedium& marble = measured_media().find("marble");
     const Spectral named = value({text("material", "Marble")});
     const Spectral given =
         value({rgb("sigma_s", marble.sigma_s_prime), rgb("sigma_a", marble.sigma_a)});

@@ -1,5 +1,6 @@
 #pragma once
 // A list of things that describe themselves, and the only way to find one by its name.
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,10 @@ class Catalogue {
                 throw std::logic_error(std::string(what) + ": two are named " +
                                        std::string(d->name));
     }
+    /// Of an array of descriptions, to which it refers.
+    template <std::size_t n>
+    Catalogue(std::string_view what, const Description (&list)[n])
+        : Catalogue(what, pointers_to(list)) {}
 
     std::span<const value_type> all() const { return all_; }
     auto begin() const { return all_.begin(); }
@@ -40,13 +45,15 @@ class Catalogue {
         return names;
     }
 
-    /// By name or alias, regardless of case, blanks, dashes and underscores; null if there is none.
+    /// By name, regardless of case, blanks, dashes and underscores, or by an alias as it is written
+    /// (-13 is not 13); null if there is none.
     const Description* look(std::string_view name) const {
         for (const value_type d : all_)
             if (find_name(name, {d->name}) == 0) return d;
         if constexpr (requires(const Description& d) { d.aliases; })
             for (const value_type d : all_)
-                if (find_name(name, d->aliases) >= 0) return d;
+                if (std::find(d->aliases.begin(), d->aliases.end(), name) != d->aliases.end())
+                    return d;
         return nullptr;
     }
     /// The same; throws InputError "unknown <what> 'x'; did you mean 'y'?" if there is none.
@@ -56,6 +63,12 @@ class Catalogue {
     }
 
   private:
+    static std::vector<value_type> pointers_to(std::span<const Description> list) {
+        std::vector<value_type> pointers;
+        for (const Description& d : list) pointers.push_back(&d);
+        return pointers;
+    }
+
     std::string_view what_;
     std::vector<value_type> all_;
 };

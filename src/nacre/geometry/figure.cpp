@@ -6,6 +6,7 @@
 #include "nacre/geometry/sdf.h"
 #include "nacre/geometry/surface_nets.h"
 #include "nacre/math/error.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace figure {
@@ -49,7 +50,7 @@ Mesh make_figure(float resolution_mm, std::string_view name) {
         throw InputError(fmt::format(
             "figure: a resolution of {:.4g} mm is not possible; give 0.2 to 8 mm", resolution_mm));
     if (name != "bust" && name != "pot")
-        throw InputError(fmt::format("figure: there is no '{}'; known are: bust, pot", name));
+        throw InputError(unknown_name("figure", name, {"bust", "pot"}));
     const bool bust = name == "bust";
     // The steepest places, locks and pleats, stay below a slope of 1.5.
     Mesh mesh = surface_nets(bust ? figure_distance : pot_distance,

@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/mesh_source.h"
 #include "nacre/math/error.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -140,17 +140,15 @@ std::string read_bytes(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
         source.fail("is a folder; give the mesh file inside it");
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
+    if (std::filesystem::exists(path, error)) {
+        static_cast<void>(
+            std::filesystem::file_size(path, error));  // a device has none, nor an end
+        if (error) source.fail(fmt::format("has no size ({}); give a plain file", error.message()));
+    }
+    auto bytes = read_whole_file(path);
+    if (!bytes)
         source.fail(fmt::format("cannot be opened ({}); check the path", std::strerror(errno)));
-    const auto size = std::filesystem::file_size(path, error);
-    if (error) source.fail(fmt::format("has no size ({}); give a plain file", error.message()));
-    std::string bytes(size, '\0');
-    file.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::uintmax_t>(file.gcount()) != size)
-        source.fail(
-            fmt::format("only {} of {} bytes could be read; check the disk", file.gcount(), size));
-    return bytes;
+    return *std::move(bytes);
 }
 
 void finish_mesh(Mesh& mesh, const MeshSource& source, const MeshOptions& options,

@@ -3,13 +3,12 @@
 // documentation read it from here. The numbers 1-23 and the division into parts are those of
 // A. Formella, D. Fellner 2004, Berechnungsmodelle (lecture notes, TU Braunschweig), which collect
 // the models that computer graphics used before and beside the BRDF.
-#include <limits>
-#include <span>
 #include <string_view>
+#include <vector>
+
+#include "nacre/catalogue/parameter.h"
 
 namespace nacre::illumination {
-
-inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// The terms that superpose to what the viewer sees, I = I_a + I_d + I_s, blended with what lies
 /// behind by the transparency.
@@ -23,30 +22,16 @@ enum class LightDistance {
     attenuated,      ///< by a free function of |L|
 };
 
-struct Parameter {
-    enum class Kind {
-        number,
-        spectrum,  ///< may vary with wavelength
-        choice,    ///< one of `choices`; its value is the position in them
-    };
-    std::string_view name, meaning;
-    std::string_view unit = "";  ///< empty: a pure number
-    double low = 0., high = unlimited;
-    double otherwise = 0.;  ///< default
-    Kind kind = Kind::number;
-    bool low_excluded = false, high_excluded = false;
-    std::span<const std::string_view> choices = {};
-};
-
 struct Description {
     int number;
-    std::string_view name;   ///< as typed: lower case, words joined by underscores
-    std::string_view title;  ///< as written
+    std::string_view name;                  ///< as typed: lower case, words joined by underscores
+    std::vector<std::string_view> aliases;  ///< the number as it is typed
+    std::string_view title;                 ///< as written
     std::string_view authors;
     int year;
     std::string_view source, formula;
     Part part;
-    std::span<const Parameter> parameters;
+    std::vector<Parameter> parameters;  ///< spectra and scalars are P and D of the struct
     LightDistance light_distance = LightDistance::ignored;
     bool uses_viewer_distance = false;
     bool uses_light = true;  ///< I_L is in the formula
@@ -57,32 +42,48 @@ struct Description {
 };
 
 /// Parameters that several models share.
-inline constexpr Parameter diffuse_coefficient = {.name = "kd",
-                                                  .meaning = "diffuse reflection coefficient",
-                                                  .high = 1.,
-                                                  .otherwise = 1.,
-                                                  .kind = Parameter::Kind::spectrum};
-inline constexpr Parameter specular_coefficient = {.name = "ks",
-                                                   .meaning = "specular reflection coefficient",
-                                                   .high = 1.,
-                                                   .otherwise = 1.,
-                                                   .kind = Parameter::Kind::spectrum};
-inline constexpr Parameter ambient_coefficient = {.name = "ka",
-                                                  .meaning = "ambient reflection coefficient",
-                                                  .high = 1.,
-                                                  .otherwise = 1.,
-                                                  .kind = Parameter::Kind::spectrum};
-inline constexpr Parameter highlight_exponent = {
-    .name = "m", .meaning = "exponent of the highlight; larger is narrower", .otherwise = 20.};
-inline constexpr Parameter distance_constant = {.name = "dk",
-                                                .meaning = "added to |V| against division by zero",
-                                                .unit = "length",
-                                                .otherwise = 1.,
-                                                .low_excluded = true};
-inline constexpr Parameter refractive_index = {.name = "n",
-                                               .meaning = "index of refraction",
-                                               .otherwise = 1.5,
-                                               .kind = Parameter::Kind::spectrum,
-                                               .low_excluded = true};
+inline Parameter diffuse_coefficient() {
+    return {.name = "kd",
+            .meaning = "diffuse reflection coefficient",
+            .kind = ParameterKind::spectrum,
+            .high = 1.,
+            .otherwise = 1.};
+}
+inline Parameter specular_coefficient() {
+    return {.name = "ks",
+            .meaning = "specular reflection coefficient",
+            .kind = ParameterKind::spectrum,
+            .high = 1.,
+            .otherwise = 1.};
+}
+inline Parameter ambient_coefficient() {
+    return {.name = "ka",
+            .meaning = "ambient reflection coefficient",
+            .kind = ParameterKind::spectrum,
+            .high = 1.,
+            .otherwise = 1.};
+}
+inline Parameter highlight_exponent() {
+    return {.name = "m",
+            .meaning = "exponent of the highlight; larger is narrower",
+            .high = infinite,
+            .otherwise = 20.};
+}
+inline Parameter distance_constant() {
+    return {.name = "dk",
+            .meaning = "added to |V| against division by zero",
+            .unit = "length",
+            .high = infinite,
+            .above_low = true,
+            .otherwise = 1.};
+}
+inline Parameter refractive_index() {
+    return {.name = "n",
+            .meaning = "index of refraction",
+            .kind = ParameterKind::spectrum,
+            .high = infinite,
+            .above_low = true,
+            .otherwise = 1.5};
+}
 
 }  // namespace nacre::illumination

@@ -9,6 +9,8 @@
 // Models with a law of distance of their own (LightDistance) take the light's radiant intensity
 // E |L|^2 in place of E. The viewer's distance |V| has no place in radiometry: radiance does not
 // change along a ray, and models that divide by it are not BRDFs.
+#include <stdexcept>
+
 #include "nacre/illumination/lighting.h"
 
 namespace nacre::illumination {
@@ -25,7 +27,8 @@ P light_intensity(P irradiance, LightConvention convention) {
 /// pi in the pi convention; 0 below the horizon.
 template <class Model, class D>
 auto brdf(const Model& model, const Vec3<D>& wi, const Vec3<D>& wo, LightConvention convention) {
-    static_assert(Model::description.is_brdf, "the model depends on more than two directions");
+    if (!Model::describe().is_brdf)
+        throw std::logic_error("the model depends on more than two directions");
     const auto intensity = model.intensity({.wi = wi, .wo = wo});
     const D share = convention == LightConvention::pi ? D(inv_pi) : D(1);
     return intensity * (share * above(wi, wo) / at_least(wi.z, 1e-12));

@@ -12,26 +12,29 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter bouknight_ambient_parameters[] = {ambient_coefficient};
-inline constexpr Description bouknight_ambient_description = {
-    .number = 1,
-    .name = "bouknight_ambient",
-    .title = "Ambient light",
-    .authors = "W. J. Bouknight",
-    .year = 1970,
-    .source =
-        "A Procedure for Generation of Three-Dimensional Half-Toned Computer Graphics "
-        "Presentations, CACM 13(9)",
-    .formula = "I_a = k_a I",
-    .part = Part::ambient,
-    .parameters = bouknight_ambient_parameters,
-    .uses_light = false,
-    .properties = "not a BRDF: no direction of incidence",
-};
+inline const Description& bouknight_ambient_description() {
+    static const Description description{
+        .number = 1,
+        .name = "bouknight_ambient",
+        .aliases = {"1"},
+        .title = "Ambient light",
+        .authors = "W. J. Bouknight",
+        .year = 1970,
+        .source =
+            "A Procedure for Generation of Three-Dimensional Half-Toned Computer Graphics "
+            "Presentations, CACM 13(9)",
+        .formula = "I_a = k_a I",
+        .part = Part::ambient,
+        .parameters = {ambient_coefficient()},
+        .uses_light = false,
+        .properties = "not a BRDF: no direction of incidence",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct BouknightAmbient {
-    static constexpr const Description& description = bouknight_ambient_description;
+    static const Description& describe() { return bouknight_ambient_description(); }
 
     P ka;
 

@@ -12,29 +12,31 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter cook_torrance_ambient_parameters[] = {
-    ambient_coefficient,
-    {.name = "f",
-     .meaning = "fraction of the hemisphere that is not blocked",
-     .high = 1.,
-     .otherwise = 1.}};
-inline constexpr Description cook_torrance_ambient_description = {
-    .number = 2,
-    .name = "cook_torrance_ambient",
-    .title = "Ambient light behind obstacles",
-    .authors = "R. L. Cook, K. E. Torrance",
-    .year = 1981,
-    .source = "A Reflectance Model for Computer Graphics, SIGGRAPH 81",
-    .formula = "I_a = k_a f I",
-    .part = Part::ambient,
-    .parameters = cook_torrance_ambient_parameters,
-    .uses_light = false,
-    .properties = "not a BRDF: no direction of incidence",
-};
+inline const Description& cook_torrance_ambient_description() {
+    static const Description description{
+        .number = 2,
+        .name = "cook_torrance_ambient",
+        .aliases = {"2"},
+        .title = "Ambient light behind obstacles",
+        .authors = "R. L. Cook, K. E. Torrance",
+        .year = 1981,
+        .source = "A Reflectance Model for Computer Graphics, SIGGRAPH 81",
+        .formula = "I_a = k_a f I",
+        .part = Part::ambient,
+        .parameters = {ambient_coefficient(),
+                       {.name = "f",
+                        .meaning = "fraction of the hemisphere that is not blocked",
+                        .high = 1.,
+                        .otherwise = 1.}},
+        .uses_light = false,
+        .properties = "not a BRDF: no direction of incidence",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct CookTorranceAmbient {
-    static constexpr const Description& description = cook_torrance_ambient_description;
+    static const Description& describe() { return cook_torrance_ambient_description(); }
 
     P ka;
     D f;

@@ -15,27 +15,30 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter bouknight_diffuse_parameters[] = {diffuse_coefficient};
-inline constexpr Description bouknight_diffuse_description = {
-    .number = 3,
-    .name = "bouknight_diffuse",
-    .title = "Diffuse reflection",
-    .authors = "W. J. Bouknight",
-    .year = 1970,
-    .source =
-        "A Procedure for Generation of Three-Dimensional Half-Toned Computer Graphics "
-        "Presentations, CACM 13(9)",
-    .formula = "I_d = k_d <N, L> I_L",
-    .part = Part::diffuse,
-    .parameters = bouknight_diffuse_parameters,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy in the pi convention",
-    .errata = "the general equation and that for point lights are printed alike",
-};
+inline const Description& bouknight_diffuse_description() {
+    static const Description description{
+        .number = 3,
+        .name = "bouknight_diffuse",
+        .aliases = {"3"},
+        .title = "Diffuse reflection",
+        .authors = "W. J. Bouknight",
+        .year = 1970,
+        .source =
+            "A Procedure for Generation of Three-Dimensional Half-Toned Computer Graphics "
+            "Presentations, CACM 13(9)",
+        .formula = "I_d = k_d <N, L> I_L",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient()},
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy in the pi convention",
+        .errata = "the general equation and that for point lights are printed alike",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct BouknightDiffuse {
-    static constexpr const Description& description = bouknight_diffuse_description;
+    static const Description& describe() { return bouknight_diffuse_description(); }
 
     P kd;
 

@@ -11,26 +11,30 @@
 
 namespace nacre::illumination {
 
-inline constexpr Description warnock_diffuse_description = {
-    .number = 4,
-    .name = "warnock_diffuse",
-    .title = "Diffuse reflection, fading with viewer distance",
-    .authors = "J. E. Warnock",
-    .year = 1969,
-    .source =
-        "A Hidden Surface Algorithm for Computer Generated Halftone Pictures, University of "
-        "Utah TR 4-15",
-    .formula = "I_d = |<N, L>| / |V|",
-    .part = Part::diffuse,
-    .parameters = {},
-    .uses_viewer_distance = true,
-    .uses_light = false,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& warnock_diffuse_description() {
+    static const Description description{
+        .number = 4,
+        .name = "warnock_diffuse",
+        .aliases = {"4"},
+        .title = "Diffuse reflection, fading with viewer distance",
+        .authors = "J. E. Warnock",
+        .year = 1969,
+        .source =
+            "A Hidden Surface Algorithm for Computer Generated Halftone Pictures, University of "
+            "Utah TR 4-15",
+        .formula = "I_d = |<N, L>| / |V|",
+        .part = Part::diffuse,
+        .parameters = {},
+        .uses_viewer_distance = true,
+        .uses_light = false,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct WarnockDiffuse {
-    static constexpr const Description& description = warnock_diffuse_description;
+    static const Description& describe() { return warnock_diffuse_description(); }
 
     template <class R>
     static WarnockDiffuse from(const R&) {

@@ -12,29 +12,34 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter romney_parameters[] = {{.name = "kd",
-                                                   .meaning = "gain, k in the thesis",
-                                                   .unit = "length^4",
-                                                   .otherwise = 1.,
-                                                   .kind = Parameter::Kind::spectrum}};
-inline constexpr Description romney_description = {
-    .number = 5,
-    .name = "romney",
-    .title = "Diffuse reflection, fading with the fourth power of viewer distance",
-    .authors = "G. W. Romney",
-    .year = 1969,
-    .source = "Computer Assisted Assembly and Rendering of Solids, PhD thesis, University of Utah",
-    .formula = "I_d = k <N, L>^2 / |V|^4",
-    .part = Part::diffuse,
-    .parameters = romney_parameters,
-    .uses_viewer_distance = true,
-    .uses_light = false,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& romney_description() {
+    static const Description description{
+        .number = 5,
+        .name = "romney",
+        .aliases = {"5"},
+        .title = "Diffuse reflection, fading with the fourth power of viewer distance",
+        .authors = "G. W. Romney",
+        .year = 1969,
+        .source =
+            "Computer Assisted Assembly and Rendering of Solids, PhD thesis, University of Utah",
+        .formula = "I_d = k <N, L>^2 / |V|^4",
+        .part = Part::diffuse,
+        .parameters = {{.name = "kd",
+                        .meaning = "gain, k in the thesis",
+                        .kind = ParameterKind::spectrum,
+                        .unit = "length^4",
+                        .high = infinite,
+                        .otherwise = 1.}},
+        .uses_viewer_distance = true,
+        .uses_light = false,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct Romney {
-    static constexpr const Description& description = romney_description;
+    static const Description& describe() { return romney_description(); }
 
     P kd;
 

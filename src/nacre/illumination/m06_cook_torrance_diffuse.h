@@ -11,25 +11,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter cook_torrance_diffuse_parameters[] = {diffuse_coefficient};
-inline constexpr Description cook_torrance_diffuse_description = {
-    .number = 6,
-    .name = "cook_torrance_diffuse",
-    .title = "Diffuse reflection by the solid angle of the light",
-    .authors = "R. L. Cook, K. E. Torrance",
-    .year = 1981,
-    .source = "A Reflectance Model for Computer Graphics, SIGGRAPH 81",
-    .formula = "I_d = k_d <N, L> d_omega I_L",
-    .part = Part::diffuse,
-    .parameters = cook_torrance_diffuse_parameters,
-    .light_distance = LightDistance::inverse_square,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy in the pi convention",
-};
+inline const Description& cook_torrance_diffuse_description() {
+    static const Description description{
+        .number = 6,
+        .name = "cook_torrance_diffuse",
+        .aliases = {"6"},
+        .title = "Diffuse reflection by the solid angle of the light",
+        .authors = "R. L. Cook, K. E. Torrance",
+        .year = 1981,
+        .source = "A Reflectance Model for Computer Graphics, SIGGRAPH 81",
+        .formula = "I_d = k_d <N, L> d_omega I_L",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient()},
+        .light_distance = LightDistance::inverse_square,
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy in the pi convention",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct CookTorranceDiffuse {
-    static constexpr const Description& description = cook_torrance_diffuse_description;
+    static const Description& describe() { return cook_torrance_diffuse_description(); }
 
     P kd;
 

@@ -11,25 +11,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter inverse_square_parameters[] = {diffuse_coefficient};
-inline constexpr Description inverse_square_description = {
-    .number = 7,
-    .name = "inverse_square",
-    .title = "Diffuse reflection with the inverse square law",
-    .authors = "after R. L. Cook, K. E. Torrance",
-    .year = 1981,
-    .source = "model 6 for a small sphere far away",
-    .formula = "I_d = k_d <N, L> I_L / |L|^2",
-    .part = Part::diffuse,
-    .parameters = inverse_square_parameters,
-    .light_distance = LightDistance::inverse_square,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy in the pi convention",
-};
+inline const Description& inverse_square_description() {
+    static const Description description{
+        .number = 7,
+        .name = "inverse_square",
+        .aliases = {"7"},
+        .title = "Diffuse reflection with the inverse square law",
+        .authors = "after R. L. Cook, K. E. Torrance",
+        .year = 1981,
+        .source = "model 6 for a small sphere far away",
+        .formula = "I_d = k_d <N, L> I_L / |L|^2",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient()},
+        .light_distance = LightDistance::inverse_square,
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy in the pi convention",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct InverseSquare {
-    static constexpr const Description& description = inverse_square_description;
+    static const Description& describe() { return inverse_square_description(); }
 
     P kd;
 

@@ -10,25 +10,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter van_dam_diffuse_parameters[] = {diffuse_coefficient};
-inline constexpr Description van_dam_diffuse_description = {
-    .number = 8,
-    .name = "van_dam_diffuse",
-    .title = "Diffuse reflection with the inverse square of the whole way",
-    .authors = "J. D. Foley, A. van Dam",
-    .year = 1984,
-    .source = "Fundamentals of Interactive Computer Graphics",
-    .formula = "I_d = k_d <N, L> I_L / (|L| + |V|)^2",
-    .part = Part::diffuse,
-    .parameters = van_dam_diffuse_parameters,
-    .light_distance = LightDistance::inverse_square,
-    .uses_viewer_distance = true,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& van_dam_diffuse_description() {
+    static const Description description{
+        .number = 8,
+        .name = "van_dam_diffuse",
+        .aliases = {"8"},
+        .title = "Diffuse reflection with the inverse square of the whole way",
+        .authors = "J. D. Foley, A. van Dam",
+        .year = 1984,
+        .source = "Fundamentals of Interactive Computer Graphics",
+        .formula = "I_d = k_d <N, L> I_L / (|L| + |V|)^2",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient()},
+        .light_distance = LightDistance::inverse_square,
+        .uses_viewer_distance = true,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct VanDamDiffuse {
-    static constexpr const Description& description = van_dam_diffuse_description;
+    static const Description& describe() { return van_dam_diffuse_description(); }
 
     P kd;
 

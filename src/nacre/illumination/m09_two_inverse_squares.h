@@ -12,26 +12,29 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter two_inverse_squares_parameters[] = {diffuse_coefficient};
-inline constexpr Description two_inverse_squares_description = {
-    .number = 9,
-    .name = "two_inverse_squares",
-    .title = "Diffuse reflection with the inverse squares of both distances",
-    .authors = "A. Formella, D. Fellner",
-    .year = 2004,
-    .source = "Berechnungsmodelle, lecture notes, TU Braunschweig",
-    .formula = "I_d = k_d <N, L> I_L / (|L|^2 |V|^2)",
-    .part = Part::diffuse,
-    .parameters = two_inverse_squares_parameters,
-    .light_distance = LightDistance::inverse_square,
-    .uses_viewer_distance = true,
-    .properties = "not a BRDF: depends on |V|",
-    .errata = "radiance does not change with the viewer's distance",
-};
+inline const Description& two_inverse_squares_description() {
+    static const Description description{
+        .number = 9,
+        .name = "two_inverse_squares",
+        .aliases = {"9"},
+        .title = "Diffuse reflection with the inverse squares of both distances",
+        .authors = "A. Formella, D. Fellner",
+        .year = 2004,
+        .source = "Berechnungsmodelle, lecture notes, TU Braunschweig",
+        .formula = "I_d = k_d <N, L> I_L / (|L|^2 |V|^2)",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient()},
+        .light_distance = LightDistance::inverse_square,
+        .uses_viewer_distance = true,
+        .properties = "not a BRDF: depends on |V|",
+        .errata = "radiance does not change with the viewer's distance",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct TwoInverseSquares {
-    static constexpr const Description& description = two_inverse_squares_description;
+    static const Description& describe() { return two_inverse_squares_description(); }
 
     P kd;
 

@@ -11,25 +11,27 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter foley_van_dam_diffuse_parameters[] = {diffuse_coefficient,
-                                                                 distance_constant};
-inline constexpr Description foley_van_dam_diffuse_description = {
-    .number = 10,
-    .name = "foley_van_dam_diffuse",
-    .title = "Diffuse reflection, fading linearly with viewer distance",
-    .authors = "J. D. Foley, A. van Dam",
-    .year = 1984,
-    .source = "Fundamentals of Interactive Computer Graphics",
-    .formula = "I_d = k_d <N, L> I_L / (|V| + d_k)",
-    .part = Part::diffuse,
-    .parameters = foley_van_dam_diffuse_parameters,
-    .uses_viewer_distance = true,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& foley_van_dam_diffuse_description() {
+    static const Description description{
+        .number = 10,
+        .name = "foley_van_dam_diffuse",
+        .aliases = {"10"},
+        .title = "Diffuse reflection, fading linearly with viewer distance",
+        .authors = "J. D. Foley, A. van Dam",
+        .year = 1984,
+        .source = "Fundamentals of Interactive Computer Graphics",
+        .formula = "I_d = k_d <N, L> I_L / (|V| + d_k)",
+        .part = Part::diffuse,
+        .parameters = {diffuse_coefficient(), distance_constant()},
+        .uses_viewer_distance = true,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct FoleyVanDamDiffuse {
-    static constexpr const Description& description = foley_van_dam_diffuse_description;
+    static const Description& describe() { return foley_van_dam_diffuse_description(); }
 
     P kd;
     D dk;

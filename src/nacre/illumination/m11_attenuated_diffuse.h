@@ -11,29 +11,35 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter attenuated_diffuse_parameters[] = {
-    diffuse_coefficient,
-    {.name = "c1", .meaning = "constant attenuation", .otherwise = 1.},
-    {.name = "c2", .meaning = "linear attenuation", .unit = "1/length"},
-    {.name = "c3", .meaning = "quadratic attenuation", .unit = "1/length^2"}};
-inline constexpr Description attenuated_diffuse_description = {
-    .number = 11,
-    .name = "attenuated_diffuse",
-    .title = "Diffuse reflection with an attenuation factor",
-    .authors = "J. D. Foley, A. van Dam, S. K. Feiner, J. F. Hughes",
-    .year = 1990,
-    .source = "Computer Graphics: Principles and Practice, section 16.1.2",
-    .formula = "I_d = k_d d_att <N, L> I_L, d_att = min(1, 1 / (c1 + c2 |L| + c3 |L|^2))",
-    .part = Part::diffuse,
-    .parameters = attenuated_diffuse_parameters,
-    .light_distance = LightDistance::attenuated,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy in the pi convention",
-};
+inline const Description& attenuated_diffuse_description() {
+    static const Description description{
+        .number = 11,
+        .name = "attenuated_diffuse",
+        .aliases = {"11"},
+        .title = "Diffuse reflection with an attenuation factor",
+        .authors = "J. D. Foley, A. van Dam, S. K. Feiner, J. F. Hughes",
+        .year = 1990,
+        .source = "Computer Graphics: Principles and Practice, section 16.1.2",
+        .formula = "I_d = k_d d_att <N, L> I_L, d_att = min(1, 1 / (c1 + c2 |L| + c3 |L|^2))",
+        .part = Part::diffuse,
+        .parameters =
+            {diffuse_coefficient(),
+             {.name = "c1", .meaning = "constant attenuation", .high = infinite, .otherwise = 1.},
+             {.name = "c2", .meaning = "linear attenuation", .unit = "1/length", .high = infinite},
+             {.name = "c3",
+              .meaning = "quadratic attenuation",
+              .unit = "1/length^2",
+              .high = infinite}},
+        .light_distance = LightDistance::attenuated,
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy in the pi convention",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct AttenuatedDiffuse {
-    static constexpr const Description& description = attenuated_diffuse_description;
+    static const Description& describe() { return attenuated_diffuse_description(); }
 
     P kd;
     D c1, c2, c3;

@@ -11,27 +11,30 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter warnock_specular_parameters[] = {highlight_exponent};
-inline constexpr Description warnock_specular_description = {
-    .number = 12,
-    .name = "warnock_specular",
-    .title = "Highlight of a light at the eye",
-    .authors = "J. E. Warnock",
-    .year = 1969,
-    .source =
-        "A Hidden Surface Algorithm for Computer Generated Halftone Pictures, University of "
-        "Utah TR 4-15 (attribution not verified)",
-    .formula = "I_s = <N, L>^m / |V|, L = V",
-    .part = Part::specular,
-    .parameters = warnock_specular_parameters,
-    .uses_viewer_distance = true,
-    .uses_light = false,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& warnock_specular_description() {
+    static const Description description{
+        .number = 12,
+        .name = "warnock_specular",
+        .aliases = {"12"},
+        .title = "Highlight of a light at the eye",
+        .authors = "J. E. Warnock",
+        .year = 1969,
+        .source =
+            "A Hidden Surface Algorithm for Computer Generated Halftone Pictures, University of "
+            "Utah TR 4-15 (attribution not verified)",
+        .formula = "I_s = <N, L>^m / |V|, L = V",
+        .part = Part::specular,
+        .parameters = {highlight_exponent()},
+        .uses_viewer_distance = true,
+        .uses_light = false,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct WarnockSpecular {
-    static constexpr const Description& description = warnock_specular_description;
+    static const Description& describe() { return warnock_specular_description(); }
 
     D m;
 

@@ -12,25 +12,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter phong_parameters[] = {specular_coefficient, highlight_exponent};
-inline constexpr Description phong_description = {
-    .number = 13,
-    .name = "phong",
-    .title = "Phong",
-    .authors = "Bui Tuong Phong",
-    .year = 1975,
-    .source = "Illumination for Computer Generated Pictures, CACM 18(6)",
-    .formula = "I_s = k_s <R, V>^m I_L",
-    .part = Part::specular,
-    .parameters = phong_parameters,
-    .is_brdf = true,
-    .properties =
-        "not reciprocal; albedo 2 pi k_s / (m + 2) at normal incidence, unbounded at grazing",
-};
+inline const Description& phong_description() {
+    static const Description description{
+        .number = 13,
+        .name = "phong",
+        .aliases = {"13"},
+        .title = "Phong",
+        .authors = "Bui Tuong Phong",
+        .year = 1975,
+        .source = "Illumination for Computer Generated Pictures, CACM 18(6)",
+        .formula = "I_s = k_s <R, V>^m I_L",
+        .part = Part::specular,
+        .parameters = {specular_coefficient(), highlight_exponent()},
+        .is_brdf = true,
+        .properties =
+            "not reciprocal; albedo 2 pi k_s / (m + 2) at normal incidence, unbounded at grazing",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct Phong {
-    static constexpr const Description& description = phong_description;
+    static const Description& describe() { return phong_description(); }
 
     P ks;
     D m;

@@ -10,25 +10,27 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter foley_van_dam_phong_parameters[] = {
-    specular_coefficient, highlight_exponent, distance_constant};
-inline constexpr Description foley_van_dam_phong_description = {
-    .number = 14,
-    .name = "foley_van_dam_phong",
-    .title = "Phong, fading linearly with viewer distance",
-    .authors = "J. D. Foley, A. van Dam",
-    .year = 1984,
-    .source = "Fundamentals of Interactive Computer Graphics",
-    .formula = "I_s = k_s <R, V>^m I_L / (|V| + d_k)",
-    .part = Part::specular,
-    .parameters = foley_van_dam_phong_parameters,
-    .uses_viewer_distance = true,
-    .properties = "not a BRDF: depends on |V|",
-};
+inline const Description& foley_van_dam_phong_description() {
+    static const Description description{
+        .number = 14,
+        .name = "foley_van_dam_phong",
+        .aliases = {"14"},
+        .title = "Phong, fading linearly with viewer distance",
+        .authors = "J. D. Foley, A. van Dam",
+        .year = 1984,
+        .source = "Fundamentals of Interactive Computer Graphics",
+        .formula = "I_s = k_s <R, V>^m I_L / (|V| + d_k)",
+        .part = Part::specular,
+        .parameters = {specular_coefficient(), highlight_exponent(), distance_constant()},
+        .uses_viewer_distance = true,
+        .properties = "not a BRDF: depends on |V|",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct FoleyVanDamPhong {
-    static constexpr const Description& description = foley_van_dam_phong_description;
+    static const Description& describe() { return foley_van_dam_phong_description(); }
 
     P ks;
     D m, dk;

@@ -13,25 +13,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter blinn_phong_parameters[] = {specular_coefficient, highlight_exponent};
-inline constexpr Description blinn_phong_description = {
-    .number = 15,
-    .name = "blinn_phong",
-    .title = "Blinn-Phong",
-    .authors = "J. F. Blinn",
-    .year = 1977,
-    .source = "Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77",
-    .formula = "I_s = k_s <H, N>^m I_L, H = (L + V) / |L + V|",
-    .part = Part::specular,
-    .parameters = blinn_phong_parameters,
-    .is_brdf = true,
-    .properties = "not reciprocal; albedo unbounded at grazing",
-    .errata = "H is printed as (L + V) / 2, without normalisation",
-};
+inline const Description& blinn_phong_description() {
+    static const Description description{
+        .number = 15,
+        .name = "blinn_phong",
+        .aliases = {"15"},
+        .title = "Blinn-Phong",
+        .authors = "J. F. Blinn",
+        .year = 1977,
+        .source = "Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77",
+        .formula = "I_s = k_s <H, N>^m I_L, H = (L + V) / |L + V|",
+        .part = Part::specular,
+        .parameters = {specular_coefficient(), highlight_exponent()},
+        .is_brdf = true,
+        .properties = "not reciprocal; albedo unbounded at grazing",
+        .errata = "H is printed as (L + V) / 2, without normalisation",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct BlinnPhong {
-    static constexpr const Description& description = blinn_phong_description;
+    static const Description& describe() { return blinn_phong_description(); }
 
     P ks;
     D m;

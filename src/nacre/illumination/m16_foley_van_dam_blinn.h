@@ -10,26 +10,28 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter foley_van_dam_blinn_parameters[] = {
-    specular_coefficient, highlight_exponent, distance_constant};
-inline constexpr Description foley_van_dam_blinn_description = {
-    .number = 16,
-    .name = "foley_van_dam_blinn",
-    .title = "Blinn-Phong, fading linearly with viewer distance",
-    .authors = "J. D. Foley, A. van Dam",
-    .year = 1984,
-    .source = "Fundamentals of Interactive Computer Graphics",
-    .formula = "I_s = k_s <H, N>^m I_L / (|V| + d_k)",
-    .part = Part::specular,
-    .parameters = foley_van_dam_blinn_parameters,
-    .uses_viewer_distance = true,
-    .properties = "not a BRDF: depends on |V|",
-    .errata = "H is printed as (L + V) / 2, without normalisation",
-};
+inline const Description& foley_van_dam_blinn_description() {
+    static const Description description{
+        .number = 16,
+        .name = "foley_van_dam_blinn",
+        .aliases = {"16"},
+        .title = "Blinn-Phong, fading linearly with viewer distance",
+        .authors = "J. D. Foley, A. van Dam",
+        .year = 1984,
+        .source = "Fundamentals of Interactive Computer Graphics",
+        .formula = "I_s = k_s <H, N>^m I_L / (|V| + d_k)",
+        .part = Part::specular,
+        .parameters = {specular_coefficient(), highlight_exponent(), distance_constant()},
+        .uses_viewer_distance = true,
+        .properties = "not a BRDF: depends on |V|",
+        .errata = "H is printed as (L + V) / 2, without normalisation",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct FoleyVanDamBlinn {
-    static constexpr const Description& description = foley_van_dam_blinn_description;
+    static const Description& describe() { return foley_van_dam_blinn_description(); }
 
     P ks;
     D m, dk;

@@ -10,24 +10,27 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter yang_parameters[] = {specular_coefficient, highlight_exponent};
-inline constexpr Description yang_description = {
-    .number = 17,
-    .name = "yang",
-    .title = "Yang",
-    .authors = "Yang",
-    .year = 1987,
-    .source = "source not verified",
-    .formula = "I_s = k_s ((<V, R> + 1) / 2)^m I_L",
-    .part = Part::specular,
-    .parameters = yang_parameters,
-    .is_brdf = true,
-    .properties = "not reciprocal; albedo unbounded at grazing",
-};
+inline const Description& yang_description() {
+    static const Description description{
+        .number = 17,
+        .name = "yang",
+        .aliases = {"17"},
+        .title = "Yang",
+        .authors = "Yang",
+        .year = 1987,
+        .source = "source not verified",
+        .formula = "I_s = k_s ((<V, R> + 1) / 2)^m I_L",
+        .part = Part::specular,
+        .parameters = {specular_coefficient(), highlight_exponent()},
+        .is_brdf = true,
+        .properties = "not reciprocal; albedo unbounded at grazing",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct Yang {
-    static constexpr const Description& description = yang_description;
+    static const Description& describe() { return yang_description(); }
 
     P ks;
     D m;

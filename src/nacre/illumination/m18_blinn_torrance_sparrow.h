@@ -22,42 +22,42 @@
 
 namespace nacre::illumination {
 
-inline constexpr std::string_view blinn_distributions[] = {"phong", "torrance_sparrow",
-                                                           "trowbridge_reitz"};
-inline constexpr Parameter blinn_torrance_sparrow_parameters[] = {
-    {.name = "distribution",
-     .meaning = "of the facets",
-     .kind = Parameter::Kind::choice,
-     .choices = blinn_distributions},
-    {.name = "beta",
-     .meaning = "angle at which D is one half",
-     .unit = "degrees",
-     .high = 90.,
-     .otherwise = 15.,
-     .low_excluded = true,
-     .high_excluded = true},
-    refractive_index,
-    specular_coefficient};
-inline constexpr Description blinn_torrance_sparrow_description = {
-    .number = 18,
-    .name = "blinn_torrance_sparrow",
-    .title = "Blinn's facets after Torrance and Sparrow",
-    .authors = "J. F. Blinn",
-    .year = 1977,
-    .source = "Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77",
-    .formula = "I_s = k_s D G F / <N, V> I_L",
-    .part = Part::specular,
-    .parameters = blinn_torrance_sparrow_parameters,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy for k_s <= 1 / (4 integral of D cos)",
-    .errata = "Trowbridge and Reitz's distribution is printed without its outer square",
-};
+inline const Description& blinn_torrance_sparrow_description() {
+    static const Description description{
+        .number = 18,
+        .name = "blinn_torrance_sparrow",
+        .aliases = {"18"},
+        .title = "Blinn's facets after Torrance and Sparrow",
+        .authors = "J. F. Blinn",
+        .year = 1977,
+        .source = "Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 77",
+        .formula = "I_s = k_s D G F / <N, V> I_L",
+        .part = Part::specular,
+        .parameters = {choice_parameter("distribution", "of the facets",
+                                        {{"phong", "a power of the cosine"},
+                                         {"torrance_sparrow", "a Gaussian of the angle"},
+                                         {"trowbridge_reitz", "of ellipsoids"}}),
+                       {.name = "beta",
+                        .meaning = "angle at which D is one half",
+                        .unit = "degrees",
+                        .high = 90.,
+                        .above_low = true,
+                        .below_high = true,
+                        .otherwise = 15.},
+                       refractive_index(),
+                       specular_coefficient()},
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy for k_s <= 1 / (4 integral of D cos)",
+        .errata = "Trowbridge and Reitz's distribution is printed without its outer square",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct BlinnTorranceSparrow {
-    static constexpr const Description& description = blinn_torrance_sparrow_description;
+    static const Description& describe() { return blinn_torrance_sparrow_description(); }
 
-    int distribution;  ///< position in blinn_distributions
+    int distribution;  ///< position of the choice
     D beta;            ///< degrees
     P n, ks;
 

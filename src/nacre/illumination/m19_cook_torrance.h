@@ -22,46 +22,47 @@
 
 namespace nacre::illumination {
 
-inline constexpr std::string_view cook_torrance_geometries[] = {"torrance_sparrow", "sancer"};
-inline constexpr Parameter cook_torrance_parameters[] = {
-    {.name = "m",
-     .meaning = "root mean square slope times sqrt(2)",
-     .otherwise = 0.3,
-     .low_excluded = true},
-    {.name = "beta",
-     .meaning = "angle at which D is half of D(0), in place of m; 0: m counts",
-     .unit = "degrees",
-     .high = 90.,
-     .high_excluded = true},
-    refractive_index,
-    specular_coefficient,
-    {.name = "geometry",
-     .meaning = "masking and shadowing",
-     .kind = Parameter::Kind::choice,
-     .choices = cook_torrance_geometries}};
-inline constexpr Description cook_torrance_description = {
-    .number = 19,
-    .name = "cook_torrance",
-    .title = "Cook-Torrance with Hall's constant",
-    .authors = "R. L. Cook, K. E. Torrance; R. Hall",
-    .year = 1982,
-    .source = "A Reflectance Model for Computer Graphics, ACM TOG 1(1)",
-    .formula = "I_s = k_s D_BB G F / <N, V> I_L, D_BB = exp(-tan^2/m^2) / (4 pi m^2 t^4)",
-    .part = Part::specular,
-    .parameters = cook_torrance_parameters,
-    .is_brdf = true,
-    .properties = "reciprocal; conserves energy",
-    .errata = "m = (1 + sqrt(tan beta)) / (2 sqrt(pi)) does not make D(beta) half of D(0)",
-};
+inline const Description& cook_torrance_description() {
+    static const Description description{
+        .number = 19,
+        .name = "cook_torrance",
+        .aliases = {"19"},
+        .title = "Cook-Torrance with Hall's constant",
+        .authors = "R. L. Cook, K. E. Torrance; R. Hall",
+        .year = 1982,
+        .source = "A Reflectance Model for Computer Graphics, ACM TOG 1(1)",
+        .formula = "I_s = k_s D_BB G F / <N, V> I_L, D_BB = exp(-tan^2/m^2) / (4 pi m^2 t^4)",
+        .part = Part::specular,
+        .parameters = {{.name = "m",
+                        .meaning = "root mean square slope times sqrt(2)",
+                        .high = infinite,
+                        .above_low = true,
+                        .otherwise = 0.3},
+                       {.name = "beta",
+                        .meaning = "angle at which D is half of D(0), in place of m; 0: m counts",
+                        .unit = "degrees",
+                        .high = 90.,
+                        .below_high = true},
+                       refractive_index(),
+                       specular_coefficient(),
+                       choice_parameter("geometry", "masking and shadowing",
+                                        {{"torrance_sparrow", "of V-shaped grooves"},
+                                         {"sancer", "of a random surface"}})},
+        .is_brdf = true,
+        .properties = "reciprocal; conserves energy",
+        .errata = "m = (1 + sqrt(tan beta)) / (2 sqrt(pi)) does not make D(beta) half of D(0)",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct CookTorrance {
-    static constexpr const Description& description = cook_torrance_description;
+    static const Description& describe() { return cook_torrance_description(); }
 
     D m;
     D beta;  ///< degrees; 0: m counts
     P n, ks;
-    int geometry;  ///< position in cook_torrance_geometries
+    int geometry;  ///< position of the choice
 
     template <class R>
     static CookTorrance from(const R& r) {

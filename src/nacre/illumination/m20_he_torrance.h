@@ -31,51 +31,60 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter he_torrance_parameters[] = {
-    {.name = "sigma0",
-     .meaning = "standard deviation of the surface's heights",
-     .unit = "micrometres",
-     .otherwise = 0.18,
-     .low_excluded = true},
-    {.name = "tau",
-     .meaning = "correlation length of the heights",
-     .unit = "micrometres",
-     .otherwise = 3.,
-     .low_excluded = true},
-    refractive_index,
-    {.name = "k", .meaning = "index of absorption", .kind = Parameter::Kind::spectrum},
-    {.name = "kss",
-     .meaning = "coefficient of the specular cone",
-     .high = 1.,
-     .otherwise = 1.,
-     .kind = Parameter::Kind::spectrum},
-    {.name = "ksd",
-     .meaning = "coefficient of directional diffuse reflection",
-     .high = 1.,
-     .otherwise = 1.,
-     .kind = Parameter::Kind::spectrum},
-    {.name = "gamma",
-     .meaning = "half-angle of the specular cone",
-     .unit = "degrees",
-     .high = 90.,
-     .otherwise = 3.}};
-inline constexpr Description he_torrance_description = {
-    .number = 20,
-    .name = "he_torrance",
-    .title = "He-Torrance: specular cone and directional diffuse reflection",
-    .authors = "X. D. He, K. E. Torrance, F. X. Sillion, D. P. Greenberg",
-    .year = 1991,
-    .source = "A Comprehensive Physical Model for Light Reflection, SIGGRAPH 91",
-    .formula = "I_s = (k_ss F exp(-g) S [angle(V, R) <= gamma] + k_sd F G D S / (pi <N, V>)) I_L",
-    .part = Part::specular,
-    .parameters = he_torrance_parameters,
-    .is_brdf = true,
-    .properties = "directional diffuse part reciprocal, conserves energy to 2e-4; cone unbounded",
-    .errata = "the condition of the cone is printed as <V, R> <= gamma"};
+inline const Description& he_torrance_description() {
+    static const Description description{
+        .number = 20,
+        .name = "he_torrance",
+        .aliases = {"20"},
+        .title = "He-Torrance: specular cone and directional diffuse reflection",
+        .authors = "X. D. He, K. E. Torrance, F. X. Sillion, D. P. Greenberg",
+        .year = 1991,
+        .source = "A Comprehensive Physical Model for Light Reflection, SIGGRAPH 91",
+        .formula =
+            "I_s = (k_ss F exp(-g) S [angle(V, R) <= gamma] + k_sd F G D S / (pi <N, V>)) I_L",
+        .part = Part::specular,
+        .parameters = {{.name = "sigma0",
+                        .meaning = "standard deviation of the surface's heights",
+                        .unit = "micrometres",
+                        .high = infinite,
+                        .above_low = true,
+                        .otherwise = 0.18},
+                       {.name = "tau",
+                        .meaning = "correlation length of the heights",
+                        .unit = "micrometres",
+                        .high = infinite,
+                        .above_low = true,
+                        .otherwise = 3.},
+                       refractive_index(),
+                       {.name = "k",
+                        .meaning = "index of absorption",
+                        .kind = ParameterKind::spectrum,
+                        .high = infinite},
+                       {.name = "kss",
+                        .meaning = "coefficient of the specular cone",
+                        .kind = ParameterKind::spectrum,
+                        .high = 1.,
+                        .otherwise = 1.},
+                       {.name = "ksd",
+                        .meaning = "coefficient of directional diffuse reflection",
+                        .kind = ParameterKind::spectrum,
+                        .high = 1.,
+                        .otherwise = 1.},
+                       {.name = "gamma",
+                        .meaning = "half-angle of the specular cone",
+                        .unit = "degrees",
+                        .high = 90.,
+                        .otherwise = 3.}},
+        .is_brdf = true,
+        .properties =
+            "directional diffuse part reciprocal, conserves energy to 2e-4; cone unbounded",
+        .errata = "the condition of the cone is printed as <V, R> <= gamma"};
+    return description;
+}
 
 template <class D, class P = D>
 struct HeTorrance {
-    static constexpr const Description& description = he_torrance_description;
+    static const Description& describe() { return he_torrance_description(); }
 
     D sigma0, tau;  ///< micrometres
     P n, k, kss, ksd;

@@ -13,30 +13,32 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter linear_transparency_parameters[] = {
-    {.name = "kt",
-     .meaning = "share of light that passes",
-     .high = 1.,
-     .otherwise = 0.5,
-     .kind = Parameter::Kind::spectrum}};
-inline constexpr Description linear_transparency_description = {
-    .number = 21,
-    .name = "linear_transparency",
-    .title = "Linear transparency",
-    .authors = "M. E. Newell, R. G. Newell, T. L. Sancha",
-    .year = 1972,
-    .source = "A Solution to the Hidden Surface Problem, ACM National Conference",
-    .formula = "I = (1 - k_t) I_r + k_t I_t",
-    .part = Part::transparency,
-    .parameters = linear_transparency_parameters,
-    .uses_light = false,
-    .properties = "not a BRDF: a weight of what lies behind",
-    .errata = "printed with I_r and I_t exchanged",
-};
+inline const Description& linear_transparency_description() {
+    static const Description description{
+        .number = 21,
+        .name = "linear_transparency",
+        .aliases = {"21"},
+        .title = "Linear transparency",
+        .authors = "M. E. Newell, R. G. Newell, T. L. Sancha",
+        .year = 1972,
+        .source = "A Solution to the Hidden Surface Problem, ACM National Conference",
+        .formula = "I = (1 - k_t) I_r + k_t I_t",
+        .part = Part::transparency,
+        .parameters = {{.name = "kt",
+                        .meaning = "share of light that passes",
+                        .kind = ParameterKind::spectrum,
+                        .high = 1.,
+                        .otherwise = 0.5}},
+        .uses_light = false,
+        .properties = "not a BRDF: a weight of what lies behind",
+        .errata = "printed with I_r and I_t exchanged",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct LinearTransparency {
-    static constexpr const Description& description = linear_transparency_description;
+    static const Description& describe() { return linear_transparency_description(); }
 
     P kt;
 

@@ -12,36 +12,42 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter crow_transparency_parameters[] = {
-    {.name = "kmin",
-     .meaning = "share that passes at the silhouette",
-     .high = 1.,
-     .otherwise = 0.1,
-     .kind = Parameter::Kind::spectrum},
-    {.name = "kmax",
-     .meaning = "share that passes face on",
-     .high = 1.,
-     .otherwise = 0.9,
-     .kind = Parameter::Kind::spectrum},
-    {.name = "p", .meaning = "exponent of the transition", .otherwise = 2.5, .low_excluded = true}};
-inline constexpr Description crow_transparency_description = {
-    .number = 22,
-    .name = "crow_transparency",
-    .title = "Transparency falling towards the silhouette",
-    .authors = "F. C. Crow",
-    .year = 1978,
-    .source = "Shaded Computer Graphics in the Entertainment Industry, Computer 11(3)",
-    .formula = "k_t = (k_max - k_min) (1 - (1 - |<N, V>|)^p) + k_min",
-    .part = Part::transparency,
-    .parameters = crow_transparency_parameters,
-    .uses_light = false,
-    .properties = "not a BRDF: a weight of what lies behind",
-    .errata = "the text refers to model 20 for the blending; model 21 is meant",
-};
+inline const Description& crow_transparency_description() {
+    static const Description description{
+        .number = 22,
+        .name = "crow_transparency",
+        .aliases = {"22"},
+        .title = "Transparency falling towards the silhouette",
+        .authors = "F. C. Crow",
+        .year = 1978,
+        .source = "Shaded Computer Graphics in the Entertainment Industry, Computer 11(3)",
+        .formula = "k_t = (k_max - k_min) (1 - (1 - |<N, V>|)^p) + k_min",
+        .part = Part::transparency,
+        .parameters = {{.name = "kmin",
+                        .meaning = "share that passes at the silhouette",
+                        .kind = ParameterKind::spectrum,
+                        .high = 1.,
+                        .otherwise = 0.1},
+                       {.name = "kmax",
+                        .meaning = "share that passes face on",
+                        .kind = ParameterKind::spectrum,
+                        .high = 1.,
+                        .otherwise = 0.9},
+                       {.name = "p",
+                        .meaning = "exponent of the transition",
+                        .high = infinite,
+                        .above_low = true,
+                        .otherwise = 2.5}},
+        .uses_light = false,
+        .properties = "not a BRDF: a weight of what lies behind",
+        .errata = "the text refers to model 20 for the blending; model 21 is meant",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct CrowTransparency {
-    static constexpr const Description& description = crow_transparency_description;
+    static const Description& describe() { return crow_transparency_description(); }
 
     P kmin, kmax;
     D p;

@@ -15,25 +15,29 @@
 
 namespace nacre::illumination {
 
-inline constexpr Parameter hall_transparency_parameters[] = {refractive_index};
-inline constexpr Description hall_transparency_description = {
-    .number = 23,
-    .name = "hall_transparency",
-    .title = "Transparency of a plate",
-    .authors = "R. Hall",
-    .year = 1981,
-    .source = "A Methodology for Realistic Image Synthesis, MS thesis, Cornell University, 1983",
-    .formula = "k_t = (1 - R) / (1 + R), R = ((n - 1) / (n + 1))^2",
-    .part = Part::transparency,
-    .parameters = hall_transparency_parameters,
-    .uses_light = false,
-    .properties = "not a BRDF: a weight of what lies behind",
-    .errata = "holds for a plate, not for one interface",
-};
+inline const Description& hall_transparency_description() {
+    static const Description description{
+        .number = 23,
+        .name = "hall_transparency",
+        .aliases = {"23"},
+        .title = "Transparency of a plate",
+        .authors = "R. Hall",
+        .year = 1981,
+        .source =
+            "A Methodology for Realistic Image Synthesis, MS thesis, Cornell University, 1983",
+        .formula = "k_t = (1 - R) / (1 + R), R = ((n - 1) / (n + 1))^2",
+        .part = Part::transparency,
+        .parameters = {refractive_index()},
+        .uses_light = false,
+        .properties = "not a BRDF: a weight of what lies behind",
+        .errata = "holds for a plate, not for one interface",
+    };
+    return description;
+}
 
 template <class D, class P = D>
 struct HallTransparency {
-    static constexpr const Description& description = hall_transparency_description;
+    static const Description& describe() { return hall_transparency_description(); }
 
     P n;
 

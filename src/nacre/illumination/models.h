@@ -2,30 +2,19 @@
 // The illumination models 1-23 by number or name: their descriptions, and their values with
 // parameters given at run time. Who knows the model at compile time uses its struct (all_models.h).
 #include <array>
-#include <string>
 
+#include "nacre/catalogue/catalogue.h"
 #include "nacre/illumination/lighting.h"
 
 namespace nacre::illumination {
 
-/// All descriptions, in the order of their numbers.
-std::span<const Description* const> descriptions();
-
-/// The model called `name`, which may be its number ("13") or its name, compared without regard to
-/// case, blanks, dashes and underscores. Throws InputError with the nearest name.
-const Description& find_model(std::string_view name);
-
-/// "within [0, 1]", "greater than 0", "one of ..."
-std::string range_text(const Parameter& parameter);
-/// Throws InputError, naming model, parameter, value and range, if `value` is outside (or NaN).
-void check_value(const Description& model, const Parameter& parameter, double value);
-/// The position of `word` in the parameter's choices; throws InputError likewise.
-int find_choice(const Description& model, const Parameter& parameter, std::string_view word);
+/// All of them, in the order of their numbers; they are found by number ("13") and by name.
+const Catalogue<Description>& models();
 
 /// Values in the order of the description: spectra as P, numbers as D, choices as int.
 template <class D, class P = D>
 struct Values {
-    static constexpr std::size_t largest = 8;
+    static constexpr std::size_t largest = 8;  ///< more parameters than any model has
     std::array<D, largest> numbers{};
     std::array<P, largest> spectra{};
 
@@ -37,7 +26,7 @@ struct Values {
         return v;
     }
     void set(const Description& model, std::size_t i, double value) {
-        if (model.parameters[i].kind == Parameter::Kind::spectrum)
+        if (model.parameters[i].kind == ParameterKind::spectrum)
             spectra[i] = P(value);
         else
             numbers[i] = D(value);

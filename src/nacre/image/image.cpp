@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include "nacre/image/formats.h"
@@ -61,12 +60,11 @@ std::string read_file(const std::filesystem::path& file) {
         throw InputError(fmt::format("{}: no such file", file.string()));
     if (std::filesystem::is_directory(file, error))
         throw InputError(fmt::format("{}: is a folder, not an image", file.string()));
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in || bytes.empty())
+    auto bytes = read_whole_file(file);
+    if (!bytes || bytes->empty())
         throw InputError(fmt::format("{}: {}", file.string(),
-                                     in ? "the file is empty" : "the file cannot be read"));
-    return bytes;
+                                     bytes ? "the file is empty" : "the file cannot be read"));
+    return *std::move(bytes);
 }
 
 [[noreturn]] void fail_unknown(const std::filesystem::path& file, const char* known) {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 
 #include "nacre/math/error.h"
 #include "nacre/text/lines.h"
 #include "nacre/text/number.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 
@@ -185,10 +185,9 @@ std::vector<McmlRun> parse_mci(std::string_view text, const std::string& name) {
 }
 
 std::vector<McmlRun> read_mci(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
-    return parse_mci(text, file.string());
+    const auto text = read_whole_file(file);
+    if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
+    return parse_mci(*text, file.string());
 }
 
 std::string mci_text(const std::vector<McmlRun>& runs) {

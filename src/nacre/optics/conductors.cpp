@@ -1,6 +1,5 @@
-#include "nacre/math/error.h"
+#include "nacre/catalogue/catalogue.h"
 #include "nacre/optics/dispersion.h"
-#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -77,21 +76,28 @@ constexpr Point nickel[] = {{354.f, 1.74f, 2.32f}, {368.f, 1.7f, 2.4f},   {381.f
                             {617.f, 1.99f, 4.02f}, {659.f, 1.99f, 4.26f}, {704.f, 2.06f, 4.5f},
                             {756.f, 2.13f, 4.73f}, {821.f, 2.26f, 4.97f}, {892.f, 2.4f, 5.23f}};
 
-constexpr std::array<std::string_view, 9> symbols = {"Ag", "Al", "Au", "Cr",  "Cu",
-                                                     "Fe", "Hg", "Ni", "none"};
-constexpr std::array<std::span<const Point>, 8> tables = {silver, aluminium, gold,    chromium,
-                                                          copper, iron,      mercury, nickel};
+struct Metal {
+    std::string_view name;
+    std::span<const Point> points;  ///< empty: a perfect mirror
+};
+constexpr Metal listed[] = {{"Ag", silver},   {"Al", aluminium}, {"Au", gold},
+                            {"Cr", chromium}, {"Cu", copper},    {"Fe", iron},
+                            {"Hg", mercury},  {"Ni", nickel},    {"none", {}}};
+
+const Catalogue<Metal>& metals() {
+    static const Catalogue<Metal> all("conductor", listed);
+    return all;
+}
 
 }  // namespace
 
-std::span<const std::string_view> conductor_names() { return symbols; }
+std::vector<std::string_view> conductor_names() { return metals().names(); }
 
 ConductorIndex conductor_index(std::string_view name) {
-    const int i = find_name(name, symbols);
-    if (i < 0) throw InputError(unknown_name("conductor", name, symbols));
-    if (symbols[static_cast<std::size_t>(i)] == "none") return {nullptr, nullptr, true};
+    const Metal& metal = metals().find(name);
+    if (metal.points.empty()) return {nullptr, nullptr, true};
     std::vector<float> nm, n, k;
-    for (const Point& p : tables[static_cast<std::size_t>(i)]) {
+    for (const Point& p : metal.points) {
         nm.push_back(p.nm);
         n.push_back(p.n);
         k.push_back(p.k);

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
+#include "nacre/catalogue/catalogue.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/dispersion.h"
-#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -21,14 +21,6 @@ constexpr Named dielectrics[] = {
     {"pyrex", 1.47f},      {"acrylic glass", 1.49f},     {"polypropylene", 1.49f},
     {"bk7", 1.5046f},      {"sodium chloride", 1.544f},  {"amber", 1.55f},
     {"pet", 1.575f},       {"diamond", 2.419f}};
-constexpr auto names = [] {
-    std::array<std::string_view, std::size(dielectrics)> n;
-    for (std::size_t i = 0; i < n.size(); ++i) n[i] = dielectrics[i].name;
-    return n;
-}();
-
-constexpr std::array<std::string_view, 5> dispersive = {"bk7", "n-sf11", "fused quartz", "diamond",
-                                                        "water"};
 
 // Quan and Fry 1995, Empirical equation for the index of refraction of seawater, Appl. Opt. 34:
 // fresh water at 20 C. Measured from 400 to 700 nm; used beyond, where it stays smooth.
@@ -123,35 +115,55 @@ Spectral DielectricIndex::eval(const Wavelengths& w) const {
     return n;
 }
 
-std::span<const std::string_view> dielectric_names() { return names; }
-std::span<const std::string_view> dispersive_names() { return dispersive; }
+namespace {
 
-float dielectric_index(std::string_view name) {
-    const int i = find_name(name, names);
-    if (i < 0) throw InputError(unknown_name("dielectric", name, names));
-    return dielectrics[i].index;
+const Catalogue<Named>& named() {
+    static const Catalogue<Named> all("dielectric", dielectrics);
+    return all;
 }
 
+struct Dispersive {
+    std::string_view name;
+    DielectricIndex (*make)();
+};
+constexpr Dispersive dispersive[] = {
+    {"bk7",
+     [] {
+         return DielectricIndex::sellmeier({1.03961212f, 0.231792344f, 1.01046945f},
+                                           {0.00600069867f, 0.0200179144f, 103.560653f});
+     }},
+    {"n-sf11",
+     [] {
+         return DielectricIndex::sellmeier({1.73759695f, 0.313747346f, 1.89878101f},
+                                           {0.013188707f, 0.0623068142f, 155.23629f});
+     }},
+    {"fused quartz",  // the paper gives the roots of c_i
+     [] {
+         return DielectricIndex::sellmeier(
+             {0.6961663f, 0.4079426f, 0.8974794f},
+             {0.0684043f * 0.0684043f, 0.1162414f * 0.1162414f, 9.896161f * 9.896161f});
+     }},
+    {"diamond",
+     [] {
+         return DielectricIndex::sellmeier({0.3306f, 4.3356f, 0.f},
+                                           {0.1750f * 0.1750f, 0.1060f * 0.1060f, 0.f});
+     }},
+    {"water", water},
+};
+const Catalogue<Dispersive>& dispersive_named() {
+    static const Catalogue<Dispersive> all("dispersive dielectric", dispersive);
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::string_view> dielectric_names() { return named().names(); }
+std::vector<std::string_view> dispersive_names() { return dispersive_named().names(); }
+
+float dielectric_index(std::string_view name) { return named().find(name).index; }
+
 DielectricIndex dispersive_dielectric(std::string_view name) {
-    switch (find_name(name, dispersive)) {
-        case 0:
-            return DielectricIndex::sellmeier({1.03961212f, 0.231792344f, 1.01046945f},
-                                              {0.00600069867f, 0.0200179144f, 103.560653f});
-        case 1:
-            return DielectricIndex::sellmeier({1.73759695f, 0.313747346f, 1.89878101f},
-                                              {0.013188707f, 0.0623068142f, 155.23629f});
-        case 2:  // the paper gives the roots of c_i
-            return DielectricIndex::sellmeier(
-                {0.6961663f, 0.4079426f, 0.8974794f},
-                {0.0684043f * 0.0684043f, 0.1162414f * 0.1162414f, 9.896161f * 9.896161f});
-        case 3:
-            return DielectricIndex::sellmeier({0.3306f, 4.3356f, 0.f},
-                                              {0.1750f * 0.1750f, 0.1060f * 0.1060f, 0.f});
-        case 4:
-            return water();
-        default:
-            throw InputError(unknown_name("dispersive dielectric", name, dispersive));
-    }
+    return dispersive_named().find(name).make();
 }
 
 }  // namespace nacre

@@ -44,13 +44,13 @@ class DielectricIndex {
 /// Hecht, Optics, 4th edition, table 4.1), e.g. vacuum, air, water, bk7, diamond. Throws InputError
 /// with the list of names.
 float dielectric_index(std::string_view name);
-std::span<const std::string_view> dielectric_names();
+std::vector<std::string_view> dielectric_names();
 
 /// The measured dispersion of a material: bk7 and n-sf11 (Schott 2017), fused quartz (Malitson
 /// 1965), diamond (Peter 1923), water at 20 C (Quan and Fry 1995). Throws InputError with the
 /// list of names.
 DielectricIndex dispersive_dielectric(std::string_view name);
-std::span<const std::string_view> dispersive_names();
+std::vector<std::string_view> dispersive_names();
 
 /// The complex index n + i k of a metal.
 struct ConductorIndex {
@@ -62,6 +62,6 @@ struct ConductorIndex {
 /// perfect mirror. In RGB-band mode eta and k are projected like coefficients
 /// (SpectrumRole::unbounded). Throws InputError with the list of names.
 ConductorIndex conductor_index(std::string_view name);
-std::span<const std::string_view> conductor_names();
+std::vector<std::string_view> conductor_names();
 
 }  // namespace nacre

@@ -1,10 +1,5 @@
 #include "nacre/optics/media.h"
 
-#include <array>
-
-#include "nacre/math/error.h"
-#include "nacre/text/names.h"
-
 namespace nacre {
 
 namespace {
@@ -109,20 +104,11 @@ constexpr MeasuredMedium media[] = {
      Vec3f(0.031845f, 0.031324f, 0.030147f), 1.33f, std::nullopt},
 };
 
-constexpr auto names = [] {
-    std::array<std::string_view, std::size(media)> n;
-    for (std::size_t i = 0; i < n.size(); ++i) n[i] = media[i].name;
-    return n;
-}();
-
 }  // namespace
 
-std::span<const MeasuredMedium> measured_media() { return media; }
-
-const MeasuredMedium& measured_medium(std::string_view name) {
-    const int i = find_name(name, names);
-    if (i < 0) throw InputError(unknown_name("measured medium", name, names));
-    return media[i];
+const Catalogue<MeasuredMedium>& measured_media() {
+    static const Catalogue<MeasuredMedium> all("measured medium", media);
+    return all;
 }
 
 }  // namespace nacre

@@ -1,9 +1,9 @@
 #pragma once
 // Measured translucent media.
 #include <optional>
-#include <span>
 #include <string_view>
 
+#include "nacre/catalogue/catalogue.h"
 #include "nacre/math/vec.h"
 
 namespace nacre {
@@ -22,11 +22,7 @@ struct MeasuredMedium {
 /// All 47: Jensen et al. 2001, A Practical Model for Subsurface Light Transport, SIGGRAPH (twelve,
 /// with index and diffuse reflectance) and Narasimhan et al. 2006, Acquiring Scattering Properties
 /// of Participating Media by Dilution, SIGGRAPH (liquids and powders in water, which publish no
-/// index: that of water, 1.33, is used).
-std::span<const MeasuredMedium> measured_media();
-
-/// The medium of that name, regardless of case, spaces, dashes and underscores ("skim milk" is
-/// Skimmilk). Throws InputError with the nearest name and the list.
-const MeasuredMedium& measured_medium(std::string_view name);
+/// index: that of water, 1.33, is used). "skim milk" finds Skimmilk.
+const Catalogue<MeasuredMedium>& measured_media();
 
 }  // namespace nacre

@@ -19,7 +19,7 @@ void turn_over(Image& image) {
 }
 
 PeerResult run(const PeerRequest& asked, const std::string& name, bool random_walk) {
-    const PeerDescription& peer = find_peer(name);
+    const PeerDescription& peer = peers().find(name);
     const auto blender = find_blender(asked.search_path);
     if (!blender) throw_absent("Blender", peer.how_to_install);
     check_comparable(asked.scene, "Blender Cycles");

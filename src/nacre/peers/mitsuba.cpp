@@ -55,7 +55,7 @@ std::optional<std::filesystem::path> find_mitsuba(const std::string& search_path
 
 PeerResult run_mitsuba(const PeerRequest& asked) {
     const auto python = find_mitsuba(asked.search_path);
-    if (!python) throw_absent("Mitsuba 3", find_peer("mitsuba").how_to_install);
+    if (!python) throw_absent("Mitsuba 3", peers().find("mitsuba").how_to_install);
     check_comparable(asked.scene, "Mitsuba 3");
     PeerRequest request = asked;
     request.folder = std::filesystem::absolute(asked.folder);

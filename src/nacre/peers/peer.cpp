@@ -5,12 +5,11 @@
 #include "nacre/math/error.h"
 #include "nacre/peers/job.h"
 #include "nacre/peers/process.h"
-#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
 
-constexpr PeerDescription catalogue[] = {
+constexpr PeerDescription listed[] = {
     {.name = "cycles",
      .title = "Blender Cycles",
      .how_to_install = "apt-get install blender",
@@ -28,20 +27,11 @@ constexpr PeerDescription catalogue[] = {
      .run = run_mitsuba},
 };
 
-constexpr auto names = [] {
-    std::array<std::string_view, std::size(catalogue)> n;
-    for (std::size_t i = 0; i < n.size(); ++i) n[i] = catalogue[i].name;
-    return n;
-}();
-
 }  // namespace
 
-std::span<const PeerDescription> peers() { return catalogue; }
-
-const PeerDescription& find_peer(std::string_view name) {
-    const int i = find_name(name, names);
-    if (i < 0) throw InputError(unknown_name("peer", name, names));
-    return catalogue[i];
+const Catalogue<PeerDescription>& peers() {
+    static const Catalogue<PeerDescription> all("peer", listed);
+    return all;
 }
 
 void Substitutions::add(std::string sentence) {

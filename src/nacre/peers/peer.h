@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "nacre/catalogue/catalogue.h"
 #include "nacre/image/image.h"
 #include "nacre/scene/scene.h"
 
@@ -53,8 +53,6 @@ struct PeerDescription {
     PeerResult (*run)(const PeerRequest& request);
 };
 
-std::span<const PeerDescription> peers();
-/// By name, regardless of case, blanks, dashes and underscores; throws InputError with the nearest.
-const PeerDescription& find_peer(std::string_view name);
+const Catalogue<PeerDescription>& peers();
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "nacre/math/error.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -12,8 +13,8 @@ float default_radius(const FilterSettings& s) {
     if (s.type == "tent") return 1.f;
     if (s.type == "gaussian") return 4.f * s.stddev;
     if (s.type == "mitchell") return 2.f;
-    throw InputError(fmt::format(
-        "unknown reconstruction filter '{}'; known are: box, tent, gaussian, mitchell", s.type));
+    throw InputError(
+        unknown_name("reconstruction filter", s.type, {"box", "tent", "gaussian", "mitchell"}));
 }
 
 /// Mitchell and Netravali 1988, equation 8; |x| in [0, 2].

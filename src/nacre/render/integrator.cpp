@@ -6,6 +6,7 @@
 #include "nacre/render/legacy.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/volume_path_tracer.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 
@@ -19,8 +20,7 @@ std::unique_ptr<Integrator> make_integrator(const Scene& scene, std::string_view
     if (type == "path") return std::make_unique<PathTracer>(scene, false);
     if (type == "volpath") return std::make_unique<VolumePathTracer>(scene, work);
     if (type == "legacy") return std::make_unique<LegacyShading>(scene);
-    throw InputError(fmt::format("integrator '{}' is not known; known are: {}", type,
-                                 fmt::join(integrator_types(), ", ")));
+    throw InputError(unknown_name("integrator", type, integrator_types()));
 }
 
 std::span<const std::string_view> integrator_types() {

@@ -2,6 +2,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/math/sobol.h"
+#include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
@@ -35,8 +36,7 @@ Sampler::Kind Sampler::kind_from_name(const std::string& name) {
     if (name == "independent") return Kind::independent;
     if (name == "stratified") return Kind::stratified;
     if (name == "sobol") return Kind::sobol;
-    throw InputError(
-        fmt::format("unknown sampler '{}'; known are: independent, stratified, sobol", name));
+    throw InputError(unknown_name("sampler", name, {"independent", "stratified", "sobol"}));
 }
 
 void Sampler::start(std::uint64_t pixel, std::uint32_t sample_index) {

@@ -4,10 +4,10 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
 
 #include "nacre/math/random.h"
 #include "nacre/scene/xml/scene_node.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -47,11 +47,10 @@ void add_file(Hash& hash, const std::string& name,
         std::error_code error;
         const std::filesystem::path file = folder / name;
         if (!std::filesystem::is_regular_file(file, error)) continue;
-        std::ifstream in(file, std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        if (!in)
+        const auto bytes = read_whole_file(file);
+        if (!bytes)
             throw RunError(fmt::format("{}: cannot be read; check its permissions", file.string()));
-        return hash.add(bytes);
+        return hash.add(*bytes);
     }
 }
 

@@ -9,7 +9,6 @@ namespace nacre {
 namespace {
 
 using illumination::Description;
-using illumination::Parameter;
 
 /// Runs `action`; its InputError is reported at the place of the parameter.
 template <class F>
@@ -23,7 +22,7 @@ decltype(auto) at_parameter(const SceneNode& node, std::string_view name, F&& ac
 
 /// Every number that a colour is made of must lie in the parameter's range.
 void check_color(const Description& model, const Parameter& p, const ColorValue& color) {
-    const auto check = [&](double value) { illumination::check_value(model, p, value); };
+    const auto check = [&](double value) { check_range(model.name, p, value); };
     switch (color.kind) {
         case ColorValue::Kind::rgb:
             for (int i = 0; i < 3; ++i) check(color.rgb[i]);
@@ -40,14 +39,13 @@ LegacyModel read_model(const SceneNode& node, const Description& model) {
     LegacyModel result{.model = &model};
     for (std::size_t i = 0; i < model.parameters.size(); ++i) {
         const Parameter& p = model.parameters[i];
-        if (p.kind == Parameter::Kind::choice) {
-            const std::string word =
-                node.get_string(p.name, p.choices[static_cast<std::size_t>(p.otherwise)]);
+        if (p.kind == ParameterKind::choice) {
+            const std::string word = node.get_string(p.name, default_text(p));
             result.numbers[i] = static_cast<float>(
-                at_parameter(node, p.name, [&] { return find_choice(model, p, word); }));
-        } else if (p.kind == Parameter::Kind::number) {
+                at_parameter(node, p.name, [&] { return find_choice(model.name, p, word); }));
+        } else if (p.kind == ParameterKind::scalar) {
             const double value = node.get_float(p.name, p.otherwise);
-            at_parameter(node, p.name, [&] { check_value(model, p, value); });
+            at_parameter(node, p.name, [&] { check_range(model.name, p, value); });
             result.numbers[i] = static_cast<float>(value);
         } else if (const ColorValue* color = node.get_color(p.name)) {
             at_parameter(node, p.name, [&] { check_color(model, p, *color); });
@@ -69,8 +67,9 @@ void read_models(const SceneNode& node, LegacySettings& settings) {
         rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
         while (name.starts_with(' ')) name.remove_prefix(1);
         while (name.ends_with(' ')) name.remove_suffix(1);
-        const Description& model = at_parameter(
-            node, "model", [&]() -> const Description& { return illumination::find_model(name); });
+        const Description& model = at_parameter(node, "model", [&]() -> const Description& {
+            return illumination::models().find(name);
+        });
         LegacyModel& place = settings.models[static_cast<std::size_t>(model.part)];
         if (place.model)
             node.fail_at("model",

@@ -173,12 +173,11 @@ Scene make_gltf_scene(const GltfObject& object, const std::string& name,
 }  // namespace
 
 const MeasuredMedium* translucent_material(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (const MeasuredMedium& m : measured_media()) names.push_back(m.name);
+    if (const MeasuredMedium* medium = measured_media().look(name)) return medium;
+    if (plain_name(name) == "skin") return nullptr;
+    std::vector<std::string_view> names = measured_media().names();
     names.emplace_back("skin");
-    const int i = find_name(name, names);
-    if (i < 0) throw InputError(unknown_name("measured medium", name, names));
-    return i + 1 == int(names.size()) ? nullptr : &measured_media()[std::size_t(i)];
+    throw InputError(unknown_name(measured_media().what(), name, names));
 }
 
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {

@@ -50,7 +50,8 @@ MaterialPtr boundary_of(const SceneNode& node, BuildContext& context) {
         if ((v.name == "int_ior" || v.name == "ext_ior") && node.has(v.name))
             boundary->values.push_back(v);
     if (!node.has("int_ior") && node.has("material"))
-        set(boundary, "int_ior", "float", double{measured_medium(node.get_string("material")).eta});
+        set(boundary, "int_ior", "float",
+            double{measured_media().find(node.get_string("material")).eta});
     const MaterialPtr made = make_material(*boundary, context);
     context.materials.erase(boundary.get());
     return made;

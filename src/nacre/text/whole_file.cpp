@@ -52,6 +52,25 @@ class TemporaryFile {
 
 }  // namespace
 
+std::optional<std::string> read_whole_file(const std::filesystem::path& file) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
+                                                             std::fclose);
+    if (!in) return std::nullopt;
+    // The size is a hint: files of /proc say 0. One byte more finds the end in the first round.
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    std::string bytes;
+    std::size_t used = 0;
+    for (std::size_t room = unknown ? 4096 : std::size_t(size) + 1;; room = bytes.size()) {
+        bytes.resize(used + room);
+        used += std::fread(bytes.data() + used, 1, room, in.get());
+        if (used < bytes.size()) break;
+    }
+    if (std::ferror(in.get())) return std::nullopt;
+    bytes.resize(used);
+    return bytes;
+}
+
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
     TemporaryFile(file).write(bytes);
 }

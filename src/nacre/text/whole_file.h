@@ -1,9 +1,16 @@
 #pragma once
-// Files that appear whole or not at all, and the folders that they go into.
+// Files that are read whole, files that appear whole or not at all, and the folders that they go
+// into.
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace nacre {
+
+/// All bytes of a file, whatever they are. Nothing if it cannot be opened, is a folder or breaks off;
+/// errno then says why.
+std::optional<std::string> read_whole_file(const std::filesystem::path& file);
 
 /// Writes beside the file, then renames: nobody sees half of it, and what was there before stays if
 /// this fails. Throws RunError "FILE: cannot be written: why".

@@ -137,15 +137,14 @@ Answers illuminate(const illumination::Description& model, const json& v) {
         const std::string wanted = model.number == 5 && name == "k" ? "kd"
                                    : ours.contains(name)            ? ours.at(name)
                                                                     : name;
-        const auto found =
-            std::find_if(model.parameters.begin(), model.parameters.end(),
-                         [&](const illumination::Parameter& p) { return p.name == wanted; });
+        const auto found = std::find_if(model.parameters.begin(), model.parameters.end(),
+                                        [&](const Parameter& p) { return p.name == wanted; });
         if (found == model.parameters.end())
             throw InputError(fmt::format("{} has no parameter '{}'", model.name, name));
         values.set(model, std::size_t(found - model.parameters.begin()),
-                   value.is_string() ? illumination::find_choice(model, *found,
-                                                                 words.at(value.get<std::string>()))
-                                     : value.get<double>());
+                   value.is_string()
+                       ? find_choice(model.name, *found, words.at(value.get<std::string>()))
+                       : value.get<double>());
     }
     if (model.part != Part::transparency) return {{"value", intensity(model, values, at)}};
     const double kt = transmittance(model, values, at.wo);
@@ -166,7 +165,7 @@ std::optional<AnsweredGroup> function_of_group(const std::string& name) {
         {"hall_plate", {"transparency", plate}},
         {"fon_albedo", {"eon", fujii_albedo}}};
     if (const auto known = functions.find(name); known != functions.end()) return known->second;
-    for (const illumination::Description* model : illumination::descriptions())
+    for (const illumination::Description* model : illumination::models())
         if (name == fmt::format("m{:02}", model->number))
             return AnsweredGroup{std::string(model->name),
                                  [model](const json& v) { return illuminate(*model, v); }};

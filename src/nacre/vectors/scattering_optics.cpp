@@ -123,7 +123,7 @@ void compare_skin(const json& group, Comparison& result) {
 
 void compare_materials(const json& group, Comparison& result) {
     for (const auto& [name, row] : group.items()) {
-        const MeasuredMedium& m = measured_medium(name);
+        const MeasuredMedium& m = measured_media().find(name);
         // The table is of floats, and the vectors' decimals are what they were read from.
         const auto add = [&](const std::string& key, float value, const json& expected) {
             result.add(name + " " + key, value, expected.get<float>());

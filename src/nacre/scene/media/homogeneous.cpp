@@ -42,7 +42,7 @@ void set_measured(const SceneNode& node, Medium& medium) {
         if (node.has(other))
             node.fail_at(other, fmt::format("give either 'material' or '{}', not both", other));
     try {
-        const MeasuredMedium& measured = measured_medium(node.get_string("material"));
+        const MeasuredMedium& measured = measured_media().find(node.get_string("material"));
         set_scattering_and_absorption(medium, make_rgb_unbounded(measured.sigma_s_prime),
                                       make_rgb_unbounded(measured.sigma_a));
     } catch (const InputError& error) {

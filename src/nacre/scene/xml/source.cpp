@@ -1,11 +1,11 @@
 #include "nacre/scene/xml/source.h"
 #include "nacre/text/names.h"
+#include "nacre/text/whole_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -100,15 +100,13 @@ XmlSource::XmlSource(const std::filesystem::path& file)
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
         throw InputError(fmt::format("{}: is a folder; name a scene file", *name_));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
+    auto text = read_whole_file(file);
+    if (!text)
         throw InputError(
             fmt::format("{}: cannot be opened; is the name right and the file "
                         "readable?",
                         *name_));
-    std::ostringstream text;
-    text << stream.rdbuf();
-    text_ = std::move(text).str();
+    text_ = *std::move(text);
     if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // the mark of UTF-8
     line_starts_.push_back(0);
     for (std::size_t i = 0; i < text_.size(); ++i)

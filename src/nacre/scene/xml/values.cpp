@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <optional>
 
@@ -17,6 +16,7 @@
 #include "nacre/text/names.h"
 #include "nacre/text/number.h"
 #include "nacre/text/split_words.h"
+#include "nacre/text/whole_file.h"
 
 namespace nacre {
 namespace {
@@ -285,15 +285,14 @@ SceneValue read_value(const XmlElement& element, const ValueContext& context) {
 }
 
 ColorValue read_spectrum_file(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw InputError(fmt::format("{}: cannot be opened", file.string()));
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (is_utf16(text))
+    const auto text = read_whole_file(file);
+    if (!text) throw InputError(fmt::format("{}: cannot be opened", file.string()));
+    if (is_utf16(*text))
         throw InputError(fmt::format(
             "{}: is text in UTF-16, which is not read; save it as UTF-8 or ASCII", file.string()));
     ColorValue color;
     color.kind = ColorValue::Kind::tabulated;
-    LineSplitter lines(text);
+    LineSplitter lines(*text);
     const auto fail = [&](const std::string& message) {
         throw InputError(fmt::format("{}:{}: {}", file.string(), lines.line(), message));
     };
