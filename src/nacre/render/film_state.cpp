@@ -9,8 +9,6 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "nacre/math/error.h"
 #include "nacre/text/number.h"
@@ -225,10 +223,9 @@ void FilmState::save(const Film& film, const std::map<std::string, std::string>&
 }
 
 FilmState FilmState::load(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw InputError("it cannot be read");
-    return decode(bytes);
+    const std::optional<std::string> bytes = read_whole_file(file);
+    if (!bytes) throw InputError("it cannot be read");
+    return decode(*bytes);
 }
 
 }  // namespace nacre
