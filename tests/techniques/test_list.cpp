@@ -72,6 +72,9 @@ TEST_F(Techniques, OptionsOfScenesAndChoices) {
     EXPECT_EQ(chosen.shapes[0].options.whole("irradiance_samples"), 32);
     EXPECT_EQ(chosen.shapes[1].options.whole("irradiance_samples"), 8);
     EXPECT_EQ(chosen.shapes[1].profile, "dipole");
+    // Under whichever name the scene says it.
+    const RenderPlan samples = plan_of(s, {"two_pass", {{"irradiance_samples", "64"}}});
+    EXPECT_EQ(samples.shapes[0].options.whole("irradiance_samples"), 64);
     // Options of other techniques wait for theirs; the profile stands for the matter.
     const RenderPlan walks = plan_of(s, {"random_walk"});
     EXPECT_EQ(walks.shapes[0].options.word("free_path"), "diffuse");

@@ -62,9 +62,9 @@ ShapeTechnique shape_technique(const TechniqueDescription& technique,
     for (const auto& [name, value] : choice.options) settings.push_back({name, value});
     for (const Option& option : scene.options) {
         check(technique, option);
-        const bool overridden = std::ranges::any_of(
-            choice.options, [&](const auto& chosen) { return chosen.first == option.name; });
-        if (!overridden && knows(technique, option.name))
+        if (!knows(technique, option.name)) continue;
+        const int i = find_parameters(technique.name, technique.parameters, option.name).front();
+        if (choice.option(technique.parameters[std::size_t(i)].name).empty())
             settings.push_back({option.name, option.value});
     }
     const bool has_profile = knows(technique, "profile");
