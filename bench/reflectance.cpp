@@ -5,7 +5,24 @@
 #include <fmt/format.h>
 
 #include "nacre/math/random.h"
+#include "nacre/reflectance/blinn_phong.h"
+#include "nacre/reflectance/blinn_torrance_sparrow.h"
+#include "nacre/reflectance/cook_torrance.h"
+#include "nacre/reflectance/eon.h"
+#include "nacre/reflectance/evaluator_of.h"
+#include "nacre/reflectance/ggx_smith.h"
+#include "nacre/reflectance/he_torrance.h"
+#include "nacre/reflectance/lafortune.h"
+#include "nacre/reflectance/lambert.h"
+#include "nacre/reflectance/metallic_roughness.h"
+#include "nacre/reflectance/models.h"
+#include "nacre/reflectance/oren_nayar.h"
+#include "nacre/reflectance/phong.h"
 #include "nacre/reflectance/registry.h"
+#include "nacre/reflectance/schlick.h"
+#include "nacre/reflectance/schlick_ct.h"
+#include "nacre/reflectance/torrance_sparrow.h"
+#include "nacre/reflectance/ward.h"
 
 namespace {
 
@@ -29,15 +46,32 @@ struct Pairs {
     }
 };
 
+/// One pair after the other.
+using EvalEach = void (*)(const ValuesF&, const Pairs&, std::vector<float>&);
+template <template <class, class, class> class Model>
+void eval_each(const ValuesF& values, const Pairs& pairs, std::vector<float>& out) {
+    const Model<float, float, float> model = make_model_of<Model, float, float, float>(values);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = model.eval(pairs.wi[i], pairs.wo[i]);
+}
+
+EvalEach eval_each_of(const ModelDescription& model) {
+#define NACRE_EVAL_EACH(Model) \
+    if (&Model<float, float, float>::describe() == &model) return eval_each<Model>;
+    NACRE_MODELS(NACRE_EVAL_EACH)
+#undef NACRE_EVAL_EACH
+    return nullptr;
+}
+
 void evaluate(benchmark::State& state, const AnyModel& model, bool packs) {
     static const Pairs pairs;
     std::vector<float> out(pairs.wi.size());
     const ValuesF values = model.values_float(550.f);
+    const EvalEach each = eval_each_of(model.description());
     for (auto _ : state) {
         if (packs)
             model.evaluator().eval_many(values, pairs.wi, pairs.wo, out);
         else
-            model.evaluator().eval_each(values, pairs.wi, pairs.wo, out);
+            each(values, pairs, out);
         benchmark::DoNotOptimize(out.data());
         benchmark::ClobberMemory();
     }

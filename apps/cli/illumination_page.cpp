@@ -27,12 +27,14 @@ std::string illumination_page(const illumination::Description& m) {
 }
 
 nlohmann::ordered_json illumination_json(const illumination::Description& m) {
-    return {{"number", m.number},        {"name", m.name},
-            {"kind", "illumination"},    {"title", m.title},
-            {"authors", m.authors},      {"year", m.year},
-            {"source", m.source},        {"formula", m.formula},
-            {"part", part_name(m.part)}, {"properties", m.properties},
-            {"errata", m.errata},        {"parameters", parameters_json(m.parameters)}};
+    nlohmann::ordered_json r =
+        heading_json({m.name, "illumination", m.title, m.authors, m.year, m.source, m.parameters});
+    r["number"] = m.number;
+    r["formula"] = m.formula;
+    r["part"] = part_name(m.part);
+    r["properties"] = m.properties;
+    r["errata"] = m.errata;
+    return r;
 }
 
 }  // namespace nacre::cli

@@ -60,21 +60,17 @@ ordered_json model_json(const ModelDescription& m) {
                               {"reciprocal", b.reciprocal},
                               {"conserves_energy", b.energy == Energy::conserves},
                               {"note", b.energy_note}});
-    return {{"name", m.name},
-            {"kind", "bsdf"},
-            {"title", m.title},
-            {"authors", m.authors},
-            {"year", m.year},
-            {"paper", m.paper},
-            {"equations", m.equations},
-            {"formula", m.formula},
-            {"parameters", parameters_json(m.parameters)},
-            {"behaviours", std::move(behaviours)},
-            {"isotropy", m.isotropy},
-            {"sampling", m.sampling},
-            {"albedo", m.albedo},
-            {"errata", m.errata},
-            {"references", m.references}};
+    ordered_json r =
+        heading_json({m.name, "bsdf", m.title, m.authors, m.year, m.paper, m.parameters});
+    r["equations"] = m.equations;
+    r["formula"] = m.formula;
+    r["behaviours"] = std::move(behaviours);
+    r["isotropy"] = m.isotropy;
+    r["sampling"] = m.sampling;
+    r["albedo"] = m.albedo;
+    r["errata"] = m.errata;
+    r["references"] = m.references;
+    return r;
 }
 
 }  // namespace nacre::cli

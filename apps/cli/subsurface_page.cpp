@@ -27,17 +27,13 @@ std::string profile_page(const ProfileDescription& p) {
 }
 
 ordered_json profile_json(const ProfileDescription& p) {
-    return {{"name", p.name},
-            {"kind", "profile"},
-            {"title", p.title},
-            {"authors", p.authors},
-            {"year", p.year},
-            {"paper", p.paper},
-            {"formula", p.formula},
-            {"single_scattering", p.single_scattering},
-            {"invertible", p.invertible},
-            {"options", parameters_json(p.options)},
-            {"errata", p.errata}};
+    ordered_json r =
+        heading_json({p.name, "profile", p.title, p.authors, p.year, p.paper, p.options});
+    r["formula"] = p.formula;
+    r["single_scattering"] = p.single_scattering;
+    r["invertible"] = p.invertible;
+    r["errata"] = p.errata;
+    return r;
 }
 
 std::string technique_page(const TechniqueDescription& t) {
@@ -54,16 +50,12 @@ std::string technique_page(const TechniqueDescription& t) {
 }
 
 ordered_json technique_json(const TechniqueDescription& t) {
-    return {{"name", t.name},
-            {"kind", "technique"},
-            {"title", t.title},
-            {"authors", t.authors},
-            {"year", t.year},
-            {"paper", t.paper},
-            {"how", t.how},
-            {"precomputes", t.precomputes},
-            {"may_change", t.keeps.text()},
-            {"options", parameters_json(t.parameters)}};
+    ordered_json r =
+        heading_json({t.name, "technique", t.title, t.authors, t.year, t.paper, t.parameters});
+    r["how"] = t.how;
+    r["precomputes"] = t.precomputes;
+    r["may_change"] = t.keeps.text();
+    return r;
 }
 
 }  // namespace nacre::cli

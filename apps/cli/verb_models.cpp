@@ -7,10 +7,12 @@
 #include "apps/cli/model_page.h"
 #include "apps/cli/subsurface_page.h"
 #include "apps/cli/verb.h"
+#include "nacre/catalogue/describe.h"
 #include "nacre/layers/skin.h"
 #include "nacre/math/error.h"
 #include "nacre/optics/media.h"
 #include "nacre/optics/phase.h"
+#include "nacre/peers/peer.h"
 #include "nacre/reflectance/registry.h"
 #include "nacre/render/integrator.h"
 #include "nacre/scene/build.h"
@@ -29,13 +31,12 @@ ordered_json to_json(const Vec3f& v) {
 }
 
 ordered_json to_json(const MeasuredMedium& m) {
-    ordered_json r{{"name", m.name},
-                   {"kind", "medium"},
-                   {"sigma_s_prime_per_mm", to_json(m.sigma_s_prime)},
-                   {"sigma_a_per_mm", to_json(m.sigma_a)},
-                   {"eta", std::stod(fmt::format("{}", m.eta))}};
+    ordered_json r =
+        heading_json({.name = m.name, .kind = "medium", .title = m.name, .paper = m.source});
+    r["sigma_s_prime_per_mm"] = to_json(m.sigma_s_prime);
+    r["sigma_a_per_mm"] = to_json(m.sigma_a);
+    r["eta"] = std::stod(fmt::format("{}", m.eta));
     if (m.diffuse_reflectance) r["diffuse_reflectance"] = to_json(*m.diffuse_reflectance);
-    r["source"] = m.source;
     return r;
 }
 
@@ -44,7 +45,8 @@ constexpr std::string_view skin_source =
 
 /// Skin as one medium, at a few wavelengths.
 ordered_json skin_json() {
-    ordered_json r{{"name", "skin"}, {"kind", "spectral_medium"}, {"source", skin_source}};
+    ordered_json r = heading_json(
+        {.name = "skin", .kind = "spectral_medium", .title = "Human skin", .paper = skin_source});
     for (double nm = 400.; nm <= 700.; nm += 50.) {
         const Layer m = skin_coefficients(SkinParameters{}, nm);
         r["spectrum"].push_back({{"nm", nm},
@@ -68,6 +70,17 @@ std::string skin_page() {
                             m.sigma_a, m.g);
     }
     return page;
+}
+
+ordered_json peer_json(const PeerDescription& p) {
+    ordered_json r = heading_json({.name = p.name, .kind = "peer", .title = p.title});
+    r["how_to_install"] = p.how_to_install;
+    return r;
+}
+
+std::string peer_page(const PeerDescription& p) {
+    return fmt::format("{}: {}\n  used by: nacre compare --peer {}\n  install: {}\n", p.name,
+                       p.title, p.name, p.how_to_install);
 }
 
 /// Everything that has only a name, by kind.
@@ -105,6 +118,7 @@ int list(bool json) {
             r["technique"].push_back(technique_json(*t));
         for (const MeasuredMedium* m : measured_media()) r["medium"].push_back(to_json(*m));
         r["spectral_medium"].push_back(skin_json());
+        for (const PeerDescription* p : peers()) r["peer"].push_back(peer_json(*p));
         fmt::print("{}\n", r.dump(2));
         return success;
     }
@@ -133,6 +147,8 @@ int list(bool json) {
         fmt::print("  {:<24} {:<26} {:<26} {}\n", m->name, triple(m->sigma_s_prime),
                    triple(m->sigma_a), m->eta);
     fmt::print("  {:<24} by wavelength; see 'nacre models show skin'\n", "skin");
+    fmt::print("\nother renderers (nacre compare --peer)\n");
+    for (const PeerDescription* p : peers()) fmt::print("  {:<22} {}\n", p->name, p->title);
     return success;
 }
 
@@ -202,7 +218,7 @@ int show(const std::string& name, bool json) {
         for (const std::string& n : names) {
             if (!finder.is(n)) continue;
             if (show_reflectance_model(n, json)) return success;
-            return print_page(json, {{"name", n}, {"kind", kind}},
+            return print_page(json, heading_json({.name = n, .kind = kind, .title = n}),
                               fmt::format("{}: <{} type=\"{}\">\n", n, kind, n));
         }
     for (const MeasuredMedium* m : measured_media()) {
@@ -214,6 +230,8 @@ int show(const std::string& name, bool json) {
         return success;
     }
     if (finder.is("skin")) return print_page(json, skin_json(), skin_page());
+    for (const PeerDescription* p : peers())
+        if (finder.is(p->name)) return print_page(json, peer_json(*p), peer_page(*p));
     // Last, because some share their name with a material: those are asked for by number.
     for (const illumination::Description* m : illumination::models())
         if (finder.is(m->name) || std::to_string(m->number) == name)
@@ -234,7 +252,7 @@ Action set_up_models(CLI::App& app, const Invocation& invocation) {
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
     sub->add_option(
            "name", o->name,
-           "a material, medium, diffusion profile, technique, phase function, integrator, or "
+           "a material, medium, diffusion profile, technique, phase function, integrator, peer, or "
            "the name or number of an illumination model")
         ->required();
     sub->add_flag("--json", o->json, "for programs");

@@ -41,9 +41,9 @@ TEST_F(ExampleTechnique, AppearsInTheListsOfModels) {
     const auto json = nlohmann::json::parse(nacre("models show thickness --json").out);
     EXPECT_EQ(json["kind"], "technique");
     EXPECT_EQ(json["may_change"], "view, light, geometry");
-    ASSERT_EQ(json["options"].size(), 4u);
-    EXPECT_EQ(json["options"][3]["name"], "length");
-    EXPECT_EQ(json["options"][3]["high"], 1000.);
+    ASSERT_EQ(json["parameters"].size(), 4u);
+    EXPECT_EQ(json["parameters"][3]["name"], "length");
+    EXPECT_EQ(json["parameters"][3]["high"], 1000.);
 }
 
 TEST_F(ExampleTechnique, Renders) {

@@ -133,7 +133,7 @@ TEST_F(ModelVerbs, ModelsListsAndShowsProfilesTechniquesAndSkin) {
         shown(p->name, {p->title, p->authors, p->paper, std::to_string(p->year)});
         const json j = json::parse(nacre(fmt::format("models show {} --json", p->name)).out);
         EXPECT_EQ(j["kind"], "profile");
-        EXPECT_EQ(j["options"].size(), p->options.size());
+        EXPECT_EQ(j["parameters"].size(), p->options.size());
         EXPECT_EQ(j["errata"].size(), p->errata.size());
     }
     shown("dipole", {"z_r = 1/sigma_t'", "boundary", "two_moment", "errata of the literature"});
@@ -147,6 +147,31 @@ TEST_F(ModelVerbs, ModelsListsAndShowsProfilesTechniquesAndSkin) {
     shown("skin", {"Skin Optics", "nacre slab --skin"});
     EXPECT_TRUE(nacre("models show dipol")
                     .err.starts_with("nacre: unknown model 'dipol'; did you mean 'dipole'?"));
+}
+
+// Whatever it is, programs find the same facts under the same names, and parameters alike.
+TEST_F(ModelVerbs, EveryDescriptionHasOneShapeAsJson) {
+    const char* heading[] = {"name", "kind", "title", "authors", "year", "paper", "parameters"};
+    for (const char* name : {"ward", "13", "dipole", "two_pass", "marble", "skin", "mitsuba", "hg",
+                             "diffuse", "path", "volpath"}) {
+        const Outcome r = nacre(fmt::format("models show {} --json", name));
+        ASSERT_EQ(r.code, 0) << r.err;
+        const auto j = nlohmann::ordered_json::parse(r.out);
+        auto at = j.begin();
+        for (const char* key : heading) {
+            ASSERT_NE(at, j.end()) << name;
+            EXPECT_EQ((at++).key(), key) << name;
+        }
+        for (const auto& p : j["parameters"]) {
+            for (const char* key : {"name", "meaning", "kind", "default", "aliases"})
+                EXPECT_TRUE(p.contains(key)) << name << key;
+            EXPECT_TRUE(p.contains("choices") || p.contains("high")) << name;
+        }
+    }
+    const json spacing = json::parse(nacre("models show two_pass --json").out)["parameters"][2];
+    EXPECT_EQ(spacing["name"], "spacing");
+    EXPECT_EQ(spacing["high"], 100.);
+    EXPECT_EQ(spacing["default"], 1.);
 }
 
 TEST_F(ModelVerbs, ShowPrintsTheManualPage) {

@@ -2,7 +2,8 @@
 #include "nacre/reflectance/albedo.h"
 #include "nacre/reflectance/check.h"
 #include "nacre/reflectance/evaluator_of.h"
-#include "tests/reflectance/minnaert.h"
+#include "tests/package/consumer/minnaert.h"
+#include "tests/support/doc_code.h"
 
 namespace nacre {
 
@@ -22,6 +23,13 @@ TEST(AddingAModel, TheExampleAgreesWithItsFormula) {
 TEST(AddingAModel, TheExamplePassesTheChecks) {
     for (const CheckOutcome& c : check_model(evaluator_of<Minnaert>()))
         EXPECT_TRUE(c.passed) << c.name << ": " << c.detail;
+}
+
+TEST(AddingAModel, TheCodeOfThePageIsTheCodeThatIsBuilt) {
+    const std::vector<test::DocCode> blocks = test::code_of("docs/adding-a-model.md");
+    EXPECT_GE(blocks.size(), 4u);
+    for (const test::DocCode& b : blocks)
+        EXPECT_TRUE(test::stands_in_its_file(b)) << b.file << ":\n" << b.code;
 }
 
 }  // namespace nacre

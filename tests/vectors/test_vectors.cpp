@@ -106,8 +106,8 @@ TEST(ReferenceVectors, AlbedosAgree) {
 
 TEST(ReferenceVectors, EveryModelAnswersAGroup) {
     for (const ModelDescription* m : models()) {
-        EXPECT_FALSE(m->groups.empty()) << m->name;
-        for (const ReferenceGroup& g : m->groups)
+        EXPECT_FALSE(groups_of(m->name).empty()) << m->name;
+        for (const ReferenceGroup& g : groups_of(m->name))
             EXPECT_TRUE(data()["models"].contains(g.name) || g.albedos_only) << g.name;
     }
 }

@@ -60,6 +60,16 @@ std::string parameter_text(const Parameter& p) {
     return text;
 }
 
+nlohmann::ordered_json heading_json(const Heading& h) {
+    return {{"name", h.name},
+            {"kind", h.kind},
+            {"title", h.title},
+            {"authors", h.authors},
+            {"year", h.year ? nlohmann::ordered_json(h.year) : nlohmann::ordered_json()},
+            {"paper", h.paper},
+            {"parameters", parameters_json(h.parameters)}};
+}
+
 nlohmann::ordered_json parameters_json(std::span<const Parameter> all) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
     for (const Parameter& p : all) {

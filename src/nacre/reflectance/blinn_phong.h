@@ -57,9 +57,6 @@ inline const ModelDescription& blinn_phong_description() {
                    "Often printed with k_d in place of k_d/pi."},
         .references = {"J. F. Blinn 1977, SIGGRAPH 77, 192-198",
                        "F. Giesen 2009, Phong Normalization Factors (note)"},
-        .groups = {{.name = "blinn_phong_brdf", .settings = "variant=classic"},
-                   {.name = "normalized_blinn_phong", .settings = "variant=normalized"},
-                   {.name = "pdf_blinn", .settings = "kd=0 ks=1", .pdf = true}},
     };
     return description;
 }

@@ -74,7 +74,6 @@ inline const ModelDescription& blinn_torrance_sparrow_description() {
                            "T. S. Trowbridge, K. P. Reitz 1975, JOSA 65(5), 531-536"},
         };
         add_fresnel_parameters(d.parameters);
-        d.groups = {{.name = "blinn_torrance_sparrow"}};
         return d;
     }();
     return description;

@@ -179,13 +179,6 @@ inline const ModelDescription& cook_torrance_description() {
                            "Surfaces, EGSR"},
         };
         add_fresnel_parameters(d.parameters);
-        d.groups = {{.name = "cook_torrance_beckmann", .adapt = give_whole_highlight},
-                    {.name = "cook_torrance_phong", .adapt = give_whole_highlight},
-                    {.name = "cook_torrance_tr", .adapt = give_whole_highlight},
-                    {.name = "cook_torrance_multi", .settings = "terms=2"},
-                    {.name = "cook_torrance_sancer", .adapt = give_whole_highlight},
-                    {.name = "pdf_beckmann", .settings = "kd=0 ks=1", .pdf = true},
-                    {.name = "pdf_ggx", .settings = "kd=0 ks=1", .pdf = true}};
         return d;
     }();
     return description;

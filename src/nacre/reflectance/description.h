@@ -10,8 +10,6 @@
 
 namespace nacre {
 
-struct Setting;  // catalogue/settings.h
-
 /// A sum of spectra that must not exceed 1, lest energy appear from nowhere.
 struct SumBound {
     std::vector<std::string_view> parameters;
@@ -55,20 +53,6 @@ struct Behaviour {
     std::vector<std::string_view> examples = {};
 };
 
-/// A group of the reference vectors that this model answers.
-struct ReferenceGroup {
-    std::string_view name;           ///< as in the file
-    std::string_view settings = "";  ///< beside those of the vector; they win over it
-    bool pdf = false;  ///< the group holds densities: of wo, for a given wi, instead of values
-    /// Parameters of the vectors that mean nothing here, such as tags of the formula.
-    std::vector<std::string_view> ignored = {};
-    /// What names alone cannot say: rewrites the settings of a vector (nested lists are flattened,
-    /// "lobes_0_C_2") to the parameters of the model.
-    void (*adapt)(std::vector<Setting>& settings) = nullptr;
-    double tolerance = 1e-9;    ///< relative, in double precision; what the file states
-    bool albedos_only = false;  ///< a name of the file's table of albedos, without vectors
-};
-
 struct ModelDescription {
     std::string_view name;   ///< in scene files and on the command line: lower case, underscores
     std::string_view title;  ///< as the field says
@@ -85,7 +69,6 @@ struct ModelDescription {
     std::string_view albedo = "";               ///< what is known in closed form
     std::vector<std::string_view> errata = {};  ///< of the literature, and what is done about them
     std::vector<std::string_view> references = {};
-    std::vector<ReferenceGroup> groups = {};
 };
 
 /// The conditions of a claim in words, "sigma up to 0.3, alpha_v = alpha_u"; empty: none.

@@ -54,8 +54,6 @@ inline const ModelDescription& eon_description() {
         .errata = {},
         .references = {"J. Portsmouth, P. Kutz, S. Hill 2025, JCGT 14(1)",
                        "Y. Fujii, A Tiny Improvement of Oren-Nayar Reflectance Model (note)"},
-        .groups = {{.name = "oren_nayar_fujii", .settings = "variant=fujii"},
-                   {.name = "eon", .settings = "variant=eon"}},
     };
     return description;
 }

@@ -58,9 +58,6 @@ class Evaluator {
     /// Many pairs of directions, in packs as wide as the registers. Spans of equal length.
     virtual void eval_many(const ValuesF& values, std::span<const Vec3f> wi,
                            std::span<const Vec3f> wo, std::span<float> out) const = 0;
-    /// The same, one pair after the other: what the packs are measured against.
-    virtual void eval_each(const ValuesF& values, std::span<const Vec3f> wi,
-                           std::span<const Vec3f> wo, std::span<float> out) const = 0;
 
     /// Draws wi; u1 in [0, 1) chooses the lobe. It may lie below the horizon: that sample is lost.
     virtual Vec3f sample(const ValuesS& values, const Vec3f& wo, float u1, Vec2f u2) const = 0;

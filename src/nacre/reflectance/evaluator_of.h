@@ -155,11 +155,6 @@ class EvaluatorOf final : public Evaluator {
         const Wide f = model.eval(evaluator_detail::load(&a[0]), evaluator_detail::load(&b[0]));
         for (std::size_t k = 0; i < out.size(); ++i, ++k) out[i] = f[int(k)];
     }
-    void eval_each(const ValuesF& v, std::span<const Vec3f> wi, std::span<const Vec3f> wo,
-                   std::span<float> out) const override {
-        const Float model = make(v);
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = model.eval(wi[i], wo[i]);
-    }
 
     Vec3f sample(const ValuesS& v, const Vec3f& wo, float u1, Vec2f u2) const override {
         const Four model = make(v);

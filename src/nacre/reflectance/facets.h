@@ -180,9 +180,6 @@ S width_unclipped(S beta) {
     return (S(1) + sqrt(tan(beta))) * S(0.5 * std::numbers::inv_sqrtpi);
 }
 
-/// Reference vectors that give no weight of the highlight mean the whole.
-void give_whole_highlight(std::vector<Setting>& settings);
-
 /// The reflectance of such a surface; the models derive from it and say which members the user
 /// sets.
 template <class D, class P, class S>

@@ -122,9 +122,6 @@ inline const ModelDescription& ggx_smith_description() {
         add_fresnel_parameters(d.parameters);
         // The vectors of kulla_conty have E_avg from 64 azimuths, 3e-7 too large (0.630648957 for
         // alpha = 0.6 instead of 0.630648616, to which their own quadrature converges).
-        d.groups = {{.name = "ggx_smith", .ignored = {"D"}},
-                    {.name = "kulla_conty", .settings = "ks=1 fresnel=schlick", .tolerance = 1e-6},
-                    {.name = "pdf_vndf_ggx", .settings = "ks=1 fresnel=one", .pdf = true}};
         return d;
     }();
     return description;

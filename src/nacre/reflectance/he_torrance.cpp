@@ -1,17 +1,6 @@
 #include "nacre/reflectance/he_torrance.h"
 
-#include "nacre/reflectance/registry.h"
-
 namespace nacre {
-namespace {
-
-/// The reference vectors give the wavelength in micrometres.
-void adapt_vector(std::vector<Setting>& settings) {
-    for (Setting& s : settings)
-        if (s.name == "lambda") s.value = 1e3 * std::get<double>(s.value);
-}
-
-}  // namespace
 
 // The manual page of he_torrance.h, apart from it for length.
 const ModelDescription& he_torrance_description() {
@@ -129,7 +118,6 @@ const ModelDescription& he_torrance_description() {
              "15(5)",
              "N. Holzschuch, R. Pacanowski 2017, A Two-Scale Microfacet Reflectance Model "
              "Combining Reflection and Diffraction, ACM TOG 36(4) (erratum of L)"},
-        .groups = {{.name = "he_torrance", .adapt = adapt_vector}},
     };
     return description;
 }

@@ -1,7 +1,5 @@
 #include "nacre/reflectance/lafortune.h"
 
-#include "nacre/reflectance/registry.h"
-
 namespace nacre {
 namespace {
 
@@ -95,20 +93,6 @@ void bring_lobes_within(NamedNumbers& numbers) {
         if (sum > 1.) number(name) /= sum * (1. + 1e-12);
 }
 
-/// The reference vectors give lobes without weights, and matrices as nine numbers.
-void adapt_vector(std::vector<Setting>& settings) {
-    const auto given = [&](std::string_view name) {
-        return std::any_of(settings.begin(), settings.end(),
-                           [&](const Setting& s) { return s.name == name; });
-    };
-    for (int lobe = 0; lobe < 3; ++lobe) {
-        const std::string key = fmt::format("lobes_{}_", lobe);
-        if (given(key + "n") && !given(key + "ks")) settings.push_back({key + "ks", 1.});
-    }
-    for (const char* lower : {"_M_1_0", "_M_2_0", "_M_2_1"})
-        std::erase_if(settings, [&](const Setting& s) { return s.name.ends_with(lower); });
-}
-
 }  // namespace
 
 // The manual page of lafortune.h, apart from it for length.
@@ -180,8 +164,6 @@ const ModelDescription& lafortune_description() {
             .references = {"E. P. F. Lafortune et al. 1997, SIGGRAPH 97, 117-126"},
         };
         for (int lobe = 0; lobe < 3; ++lobe) add_lobe(d.parameters, lobe, keys[lobe]);
-        d.groups = {{.name = "lafortune", .settings = "norm=none", .adapt = adapt_vector},
-                    {.name = "pdf_lafortune", .settings = "kd=0 ks=1", .pdf = true}};
         return d;
     }();
     return description;

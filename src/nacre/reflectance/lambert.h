@@ -32,7 +32,6 @@ inline const ModelDescription& lambert_description() {
         .errata = {"Texts that write f = k_d mean an intensity with its own light unit; as a BRDF "
                    "it needs 1/pi, else the albedo is pi k_d."},
         .references = {"J. H. Lambert 1760, Photometria, Augsburg"},
-        .groups = {{.name = "lambert"}, {.name = "pdf_cosine", .pdf = true}},
     };
     return description;
 }

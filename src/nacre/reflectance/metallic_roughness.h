@@ -97,7 +97,6 @@ inline const ModelDescription& metallic_roughness_description() {
                        "P. Shirley et al. 1997, A Practitioners' Assessment of Light Reflection "
                        "Models, Pacific Graphics",
                        "C. Schlick 1994, CGF 13(3)", "B. Walter et al. 2007, EGSR, 195-206"},
-        .groups = {{.name = "metallic_roughness"}},
     };
     return description;
 }

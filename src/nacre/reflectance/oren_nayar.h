@@ -80,8 +80,6 @@ inline const ModelDescription& oren_nayar_description() {
                    "sigma above 0.66 and dark facets (its limit there is rho/pi (A - 6 B/pi + 0.34 "
                    "rho s2/(s2 + 0.13))); it is 0 there."},
         .references = {"M. Oren, S. K. Nayar 1994, SIGGRAPH 94, 239-246"},
-        .groups = {{.name = "oren_nayar_full", .settings = "variant=full"},
-                   {.name = "oren_nayar", .settings = "variant=qualitative"}},
     };
     return description;
 }

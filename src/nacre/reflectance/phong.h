@@ -59,9 +59,6 @@ inline const ModelDescription& phong_description() {
                        "R. R. Lewis 1994, CGF 13(2), 109-120",
                        "E. P. Lafortune, Y. D. Willems 1994, Using the Modified Phong Reflectance "
                        "Model for Physically Based Rendering, report CW197, K.U. Leuven"},
-        .groups = {{.name = "phong_brdf", .settings = "variant=classic"},
-                   {.name = "modified_phong", .settings = "variant=modified"},
-                   {.name = "pdf_phong", .settings = "kd=0 ks=1", .pdf = true}},
     };
     return description;
 }

@@ -145,8 +145,6 @@ const ModelDescription& schlick_description() {
         .references = {"C. Schlick 1994, CGF 13(3), 233-246",
                        "C. Schlick 1993, A Customizable Reflectance Model for Everyday Rendering, "
                        "Eurographics Workshop on Rendering, 73-84"},
-        .groups = {{.name = "schlick94", .settings = "masking=given"},
-                   {.name = "pdf_schlick", .settings = "form=simple", .pdf = true}},
     };
     return description;
 }

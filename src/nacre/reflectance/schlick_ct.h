@@ -81,7 +81,6 @@ inline const ModelDescription& schlick_ct_description() {
              "0.10 of the former and 0.23 of Smith's for m from 0.1 to 0.5.",
              "F/pi with D as printed is 4 times too bright."},
         .references = {"C. Schlick 1994, CGF 13(3), 233-246"},
-        .groups = {{.name = "schlick_ct"}},
     };
     return description;
 }

@@ -66,8 +66,6 @@ inline const ModelDescription& torrance_sparrow_description() {
             .references = {"K. E. Torrance, E. M. Sparrow 1967, JOSA 57(9), 1105-1114"},
         };
         add_fresnel_parameters(d.parameters);
-        d.groups = {
-            {.name = "cook_torrance_gauss", .ignored = {"D", "G"}, .adapt = give_whole_highlight}};
         return d;
     }();
     return description;

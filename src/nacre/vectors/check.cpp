@@ -118,7 +118,7 @@ VectorReport check_vectors(const json& all, const std::string& path, const TellG
 std::vector<VectorGroup> check_built_in_vectors(const Evaluator& evaluator) {
     static const json vectors = json::parse(built_in_vectors);
     std::vector<VectorGroup> groups;
-    for (const ReferenceGroup& g : evaluator.description().groups) {
+    for (const ReferenceGroup& g : groups_of(evaluator.description().name)) {
         if (!vectors["models"].contains(g.name)) continue;
         VectorGroup group{.name = std::string(g.name),
                           .who = std::string(evaluator.description().name),

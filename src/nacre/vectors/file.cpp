@@ -22,7 +22,7 @@ Settings settings_of(const nlohmann::json& parameters) {
 
 GroupModel model_of_group(std::string_view name) {
     for (const ModelDescription* m : models())
-        for (const ReferenceGroup& g : m->groups)
+        for (const ReferenceGroup& g : groups_of(m->name))
             if (g.name == name) return {&find_evaluator(m->name), &g};
     return {};
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nacre/reflectance/registry.h"
+#include "nacre/vectors/groups.h"
 
 namespace nacre {
 

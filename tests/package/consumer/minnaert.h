@@ -3,8 +3,8 @@
 //
 //   M. Minnaert 1941, The Reciprocity Principle in Lunar Photometry, Astrophysical Journal 93.
 //   f = rho (k + 1)/(2 pi) (wi.z wo.z)^(k - 1)
-#include "nacre/math/warp.h"
-#include "nacre/reflectance/model.h"
+#include <nacre/math/warp.h>
+#include <nacre/reflectance/model.h>
 
 namespace nacre {
 
