@@ -2,6 +2,7 @@
 
 #include "apps/cli/model_page.h"
 #include "nacre/catalogue/describe.h"
+#include "nacre/text/split_words.h"
 
 namespace nacre::cli {
 

@@ -51,6 +51,9 @@ TEST(Describe, LinesAreAtMostAHundredLettersLong) {
     // 7 + 50 + 1 + 42 letters, and what no longer fits.
     EXPECT_EQ(wrapped("  lead ", fmt::format("{:a<50} {:b<42} {:c<42} d", "", "", "")),
               fmt::format("  lead {:a<50} {:b<42}\n       {:c<42} d\n", "", "", ""));
+    // One letter more is too long, though it is the last word.
+    EXPECT_EQ(wrapped("  lead ", fmt::format("{:a<50} {:b<43}", "", "")),
+              fmt::format("  lead {:a<50}\n       {:b<43}\n", "", ""));
 }
 
 }  // namespace nacre

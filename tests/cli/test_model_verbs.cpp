@@ -168,7 +168,7 @@ TEST_F(ModelVerbs, EveryDescriptionHasOneShapeAsJson) {
             EXPECT_TRUE(p.contains("choices") || p.contains("high")) << name;
         }
     }
-    const json spacing = json::parse(nacre("models show two_pass --json").out)["parameters"][2];
+    const json spacing = json::parse(nacre("models show two_pass --json").out)["parameters"][3];
     EXPECT_EQ(spacing["name"], "spacing");
     EXPECT_EQ(spacing["high"], 100.);
     EXPECT_EQ(spacing["default"], 1.);

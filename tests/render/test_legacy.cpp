@@ -102,8 +102,9 @@ TEST_F(Legacy, APixelOfAPictureShowsTheFormula) {
     const Vec3d p{x, y, std::sqrt(1 - x * x - y * y)}, eye{x, y, 5};
     const auto& models = illumination::models();
     for (int c = 0; c < 3; ++c) {
-        const double expected = 0.5 * 0.25 + 0.75 * formula(*models[2], eye, p, light_color[c], 0) +
-                                formula(*models[12], eye, p, light_color[c], 0);
+        const double expected = 0.5 * 0.25 +
+                                0.75 * formula(models.find("3"), eye, p, light_color[c], 0) +
+                                formula(models.find("13"), eye, p, light_color[c], 0);
         EXPECT_NEAR(result.film.mean(0, 0)[c], expected, 4e-3 * expected) << c;
     }
 }

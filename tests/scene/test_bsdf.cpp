@@ -20,7 +20,7 @@ using test::text;
 std::shared_ptr<SceneNode> model_node(const ModelDescription& model, const std::string& settings) {
     const auto made = bsdf(std::string(model.name));
     for (const Setting& s : parse_settings(settings)) {
-        const int position = find_parameters(model, s.name).front();
+        const int position = find_parameters(model.name, model.parameters, s.name).front();
         if (model.parameters[std::size_t(position)].kind == ParameterKind::integer)
             made->values.push_back(
                 {s.name, "integer", std::int64_t(std::get<double>(s.value)), test::at(2, 5)});
