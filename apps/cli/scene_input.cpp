@@ -9,6 +9,7 @@
 #include "nacre/math/error.h"
 #include "nacre/scene/demo_scene.h"
 #include "nacre/scene/load.h"
+#include "nacre/techniques/techniques.h"
 #include "nacre/text/names.h"
 
 namespace nacre::cli {
@@ -97,7 +98,9 @@ Scene load(const SceneInput& input, const CLI::App& app,
         load.mode = mode;
         load.files = files;
         std::tie(load.width, load.height) = size;
-        return load_scene(file, load);
+        Scene scene = load_scene(file, load);
+        plan_of(scene);  // refuses what no technique understands, whoever renders it
+        return scene;
     }
     refuse("-D", no_names);
     MeshSceneOptions mesh;

@@ -78,6 +78,8 @@ TEST_F(ExampleTechnique, RefusesWhatIsWrong) {
          "thickness: share = 2 is out of range: must lie within [0, 1]"},
         {"render wrong.xml -o a.exr",
          "wrong.xml:7:1: thickness: share = 2 is out of range: must lie within [0, 1]"},
+        {"compare wrong.xml --techniques brdf -o out",
+         "wrong.xml:7:1: thickness: share = 2 is out of range: must lie within [0, 1]"},
     };
     for (const auto& [arguments, message] : cases) {
         const Outcome r = nacre(arguments);

@@ -212,19 +212,6 @@ const Wrong objects[] = {
      R"(<shape type="sphere"><subsurface type="dipole"><float name="sigma_t" value="1"/>
 <float name="albedo" value="1.5"/></subsurface></shape>)",
      "scene.xml:3:1: 'albedo' must lie within [0, 1], but has the value 1.5"},
-    {"SubsurfaceOption",
-     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
-<float name="spacing" value="0"/></subsurface></shape>)",
-     "scene.xml:3:1: option 'spacing' = 0 must be a number within [0.01, 100]"},
-    {"SubsurfaceWord",
-     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
-<string name="points" value="repulsive"/></subsurface></shape>)",
-     "scene.xml:3:1: option 'points' has no value 'repulsive'; did you mean 'repulsion'?"},
-    {"SubsurfaceMisspelt",
-     R"(<shape type="sphere"><subsurface type="dipole"><string name="material" value="marble"/>
-<float name="spaceing" value="1"/></subsurface></shape>)",
-     "scene.xml:3:1: <subsurface type=\"dipole\"> has no parameter 'spaceing'; did you mean "
-     "'spacing'?"},
     {"SubsurfaceBoundary",
      R"(<shape type="sphere"><bsdf type="diffuse"/>
 <subsurface type="dipole"><string name="material" value="marble"/></subsurface></shape>)",

@@ -33,7 +33,7 @@ TEST_F(Subsurface, MakesAMediumAndABoundary) {
     ASSERT_EQ(shape.subsurface->options.size(), 2u);
     EXPECT_EQ(shape.subsurface->options[0].name, "spacing");
     EXPECT_EQ(shape.subsurface->options[0].value, "0.5");
-    EXPECT_TRUE(shape.subsurface->options[0].where.ends_with("scene.xml:2:46"))
+    EXPECT_TRUE(shape.subsurface->options[0].where.ends_with("scene.xml:2:49"))
         << shape.subsurface->options[0].where;
     EXPECT_EQ(shape.subsurface->options[1].name, "exit_fresnel");
     EXPECT_EQ(shape.subsurface->options[1].value, "paper");

@@ -134,12 +134,14 @@ TEST_F(Techniques, SayWhatTheyCannotDo) {
          "unknown diffusion profile 'dipol'; did you mean 'dipole'?");
     says(message("normalised_diffusion", word("method", "two_pass")), "scene.xml:4:153",
          "two_pass: unknown profile 'normalised_diffusion'; known are: dipole, better_dipole");
-    says(message("dipole", xml::number("spaceing", 1)),
-         "scene.xml:4:", "<subsurface> has no parameter 'spaceing'; did you mean 'spacing'?");
-    says(message("dipole", xml::number("sigma_x", 1)),
-         "scene.xml:4:", "<subsurface> has no parameter 'sigma_x'; did you mean 'sigma_s'?");
+    says(message("dipole", xml::number("spaceing", 1)), "scene.xml:4:",
+         "<subsurface type=\"dipole\"> has no parameter 'spaceing'; did you mean 'spacing'?");
+    says(message("dipole", xml::number("sigma_x", 1)), "scene.xml:4:",
+         "<subsurface type=\"dipole\"> has no parameter 'sigma_x'; did you mean 'sigma_s'?");
     says(message("dipole", word("method", "brdf") + xml::number("spacing", 0)),
          "scene.xml:4:", "two_pass: spacing = 0 is out of range: must lie within [0.01, 100]");
+    says(message("dipole", word("points", "repulsive")),
+         "scene.xml:4:", "two_pass: unknown points 'repulsive'; did you mean 'repulsion'?");
     // Of several shapes: the message behind the place.
     const auto of_scene = [&](const std::string& shapes) {
         const std::string text = error_of([&] {

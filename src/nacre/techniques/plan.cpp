@@ -41,7 +41,8 @@ std::vector<std::string_view> known_names() {
 }
 
 /// Throws unless the technique, or else any other, would take the option.
-void check(const TechniqueDescription& technique, const Option& option) {
+void check(const TechniqueDescription& technique, const Option& option,
+           const std::string& profile) {
     std::vector<const TechniqueDescription*> asked{&technique};
     asked.insert(asked.end(), techniques().begin(), techniques().end());
     for (const TechniqueDescription* t : asked) {
@@ -51,8 +52,9 @@ void check(const TechniqueDescription& technique, const Option& option) {
         });
         return;
     }
-    throw InputError(fmt::format("{}<subsurface> has no parameter '{}'{}", place_of(option.where),
-                                 option.name, suggestion(option.name, known_names())));
+    throw InputError(fmt::format("{}<subsurface type=\"{}\"> has no parameter '{}'{}",
+                                 place_of(option.where), profile, option.name,
+                                 suggestion(option.name, known_names())));
 }
 
 ShapeTechnique shape_technique(const TechniqueDescription& technique,
@@ -61,7 +63,7 @@ ShapeTechnique shape_technique(const TechniqueDescription& technique,
     Settings settings;
     for (const auto& [name, value] : choice.options) settings.push_back({name, value});
     for (const Option& option : scene.options) {
-        check(technique, option);
+        check(technique, option, scene.profile);
         if (!knows(technique, option.name)) continue;
         const int i = find_parameters(technique.name, technique.parameters, option.name).front();
         if (choice.option(technique.parameters[std::size_t(i)].name).empty())
