@@ -25,8 +25,8 @@ std::pair<std::uint32_t, std::uint32_t> sample_range(const Film& film) {
     return {least, most};
 }
 
-void print_json(const RenderResult& r, const Scene& scene,
-                const std::vector<std::string>& warnings, const std::filesystem::path& file) {
+void print_json(const RenderResult& r, const Scene& scene, const std::vector<std::string>& warnings,
+                const std::filesystem::path& file) {
     Vec3d mean;
     for (int y = 0; y < r.film.height(); ++y)
         for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));

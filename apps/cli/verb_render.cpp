@@ -108,7 +108,8 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     add_timeout(app, o->timeout);
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
     app.add_option("--technique", o->technique,
-                   fmt::format("how translucent shapes are rendered: {}", fmt::join(techniques().names(), ", ")));
+                   fmt::format("how translucent shapes are rendered: {}",
+                               fmt::join(techniques().names(), ", ")));
     app.add_option("--profile", o->profile,
                    "diffusion profile of the technique (dipole); see 'nacre models'");
     app.add_option("--set", o->set, "name=value: an option of the technique")

@@ -54,8 +54,7 @@ class RayCamera final : public Camera {
 /// A frame of `pixels` independent estimates along such rays.
 inline FrameSettings frame_of(const RayMaker& rays, const EstimateOptions& options) {
     FrameSettings frame;
-    frame.camera =
-        std::make_shared<RayCamera>([rays](Vec2f, Vec2f lens) { return rays(lens); });
+    frame.camera = std::make_shared<RayCamera>([rays](Vec2f, Vec2f lens) { return rays(lens); });
     frame.film.width = options.pixels;
     frame.film.height = 1;
     frame.film.filter.type = "box";

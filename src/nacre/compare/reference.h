@@ -43,7 +43,8 @@ struct Reference {
 /// KEY.exr.damaged and made anew. Whoever changes how that technique computes
 /// asks for a `fresh` one. Throws InputError for unknown techniques and a store that cannot be
 /// made, RunError if it cannot be written.
-Reference make_reference(const Scene& scene, const PixelMask& mask, const ReferenceOptions& options);
+Reference make_reference(const Scene& scene, const PixelMask& mask,
+                         const ReferenceOptions& options);
 
 /// Root mean square over blocks and channels of the relative standard error of a block's mean.
 double block_standard_error(const Image& picture, const Image& variance, const PixelMask& mask,

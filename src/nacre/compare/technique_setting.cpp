@@ -65,8 +65,8 @@ std::string TechniqueSetting::id() const {
 std::string TechniqueSetting::arguments() const {
     std::string text = "--technique " + choice.technique;
     for (const auto& [name, value] : choice.options)
-        text += name == "profile" ? " --profile " + value
-                                  : fmt::format(" --set {}={}", name, value);
+        text +=
+            name == "profile" ? " --profile " + value : fmt::format(" --set {}={}", name, value);
     return text + fmt::format(" --spp {}", samples);
 }
 

@@ -314,10 +314,11 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
         d["pictures"][row.measurement.id] = rgbe_picture(shrunk(row.measurement.frame, side));
         d["maps"][row.measurement.id] = byte_map(shrunk(row.verdict->flip_map, side));
     }
-    d["reference"] = {{"title", std::string(techniques().find(o.reference.technique.technique).title)},
-                      {"picture", "reference"},
-                      {"about", ordered_json::array({ordered_json::array(
-                                    {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};
+    d["reference"] = {
+        {"title", std::string(techniques().find(o.reference.technique.technique).title)},
+        {"picture", "reference"},
+        {"about", ordered_json::array({ordered_json::array(
+                      {"Samples a pixel", fmt::to_string(e.reference.samples)})})}};
     d["plot"] = {{"x", {"total", "frame", "cpu"}}, {"y", {"rms", "systematic", "flip"}}};
     const Image& reference = e.reference.picture;
     const double scale = std::min(1., double(side) / std::max(reference.width, reference.height));

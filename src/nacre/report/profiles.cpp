@@ -28,8 +28,7 @@ std::vector<std::string> profiles_of(const std::vector<ExperimentRow>& rows) {
     std::vector<std::string> names;
     for (const ExperimentRow& row : rows) {
         if (row.peer) continue;
-        const TechniqueDescription& technique =
-            techniques().find(row.setting.choice.technique);
+        const TechniqueDescription& technique = techniques().find(row.setting.choice.technique);
         if (std::ranges::find(technique.parameters, "profile", &Parameter::name) ==
             technique.parameters.end())
             continue;

@@ -30,6 +30,9 @@ struct BuildContext {
     std::vector<std::filesystem::path>* files = nullptr;  ///< gets those that `file` finds
     int film_width = 0, film_height = 0;                  ///< instead of the scene's if positive
 
+    // What was built, by its node; nodes that are made on the way, and no file's, stand in `made` and
+    // live as long.
+    std::vector<SceneNodePtr> made;
     std::map<const SceneNode*, MaterialPtr> materials;
     std::map<const SceneNode*, MediumPtr> media;
     std::map<std::pair<const SceneNode*, ColorRole>, TexturePtr> textures;

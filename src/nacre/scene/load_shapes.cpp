@@ -6,6 +6,7 @@
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/scene/xml/write_nodes.h"
 #include "nacre/text/names.h"
 
 namespace nacre {
@@ -141,14 +142,11 @@ AddGeometry geometry_of(const SceneNode& node) {
 
 /// What is missing in a scene file: Mitsuba's default, black if the surface shines.
 MaterialPtr default_material(const SceneNode& shape, bool shines, BuildContext& context) {
-    SceneNode diffuse;
-    diffuse.tag = "bsdf";
-    diffuse.type = "diffuse";
-    diffuse.location = shape.location;
-    if (shines) diffuse.values.push_back({"reflectance", "float", 0.0, shape.location});
-    const MaterialPtr material = make_material(diffuse, context);
-    context.materials.erase(&diffuse);  // the key is about to go
-    return material;
+    const auto diffuse = make_node("bsdf", "diffuse");
+    diffuse->location = shape.location;
+    if (shines) diffuse->values.push_back({"reflectance", "float", 0.0, shape.location});
+    context.made.push_back(diffuse);
+    return make_material(*diffuse, context);
 }
 
 const SceneNode* only_child(const SceneNode& shape, const char* tag) {

@@ -13,9 +13,9 @@
 namespace nacre {
 namespace {
 
-constexpr std::string_view parameters[] = {"material",      "sigma_s", "sigma_a", "sigma_t",
-                                           "albedo",        "surface_color", "radius", "scale",
-                                           "int_ior", "ext_ior", "method"};
+constexpr std::string_view parameters[] = {"material", "sigma_s",       "sigma_a", "sigma_t",
+                                           "albedo",   "surface_color", "radius",  "scale",
+                                           "int_ior",  "ext_ior",       "method"};
 // Those that the medium inside is made of.
 constexpr auto medium_parameters = std::span(parameters).first(8);
 
@@ -38,9 +38,8 @@ const Medium* add_medium_of(const SceneNode& node, Scene& scene, BuildContext& c
         medium->children.push_back(*phase);
     if (medium->values.empty())
         node.fail("say what the object is made of: 'material', or 'sigma_s' and 'sigma_a'");
-    const Medium* made = add_medium(*medium, scene, context);
-    context.media.erase(medium.get());  // the key is about to go
-    return made;
+    context.made.push_back(medium);
+    return add_medium(*medium, scene, context);
 }
 
 MaterialPtr boundary_of(const SceneNode& node, BuildContext& context) {
@@ -52,9 +51,8 @@ MaterialPtr boundary_of(const SceneNode& node, BuildContext& context) {
     if (!node.has("int_ior") && node.has("material"))
         set(boundary, "int_ior", "float",
             double{measured_media().find(node.get_string("material")).eta});
-    const MaterialPtr made = make_material(*boundary, context);
-    context.materials.erase(boundary.get());
-    return made;
+    context.made.push_back(boundary);
+    return make_material(*boundary, context);
 }
 
 }  // namespace
@@ -71,9 +69,8 @@ void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_materi
     // What is left is for the techniques to understand.
     for (const SceneValue& v : node.values)
         if (std::ranges::find(parameters, v.name) == std::end(parameters))
-            settings->options.push_back({v.name, text_of(node, v), settings->where.empty()
-                                                                       ? ""
-                                                                       : v.location.str()});
+            settings->options.push_back(
+                {v.name, text_of(node, v), settings->where.empty() ? "" : v.location.str()});
     shape.interior = add_medium_of(node, scene, context);
     shape.separates_media = true;
     if (!has_material)

@@ -111,11 +111,11 @@ TranslucencyPtr make_local_scattering(const ShapeInput& in) {
     const auto choice = in.options.choice<SingleScatteringChoice>("single_scattering");
     const LocalScatteringLobe::Orders orders{
         .single = choice != SingleScatteringChoice::off,
-        .subtracted = choice == SingleScatteringChoice::automatic &&
-                      profile->includes_single_scattering()};
+        .subtracted =
+            choice == SingleScatteringChoice::automatic && profile->includes_single_scattering()};
     return std::make_shared<LocalScattering>(
-        in.boundary, LocalScatteringLobe(in.medium(), std::move(profile), in.boundary,
-                                         exit_scale(in), orders));
+        in.boundary,
+        LocalScatteringLobe(in.medium(), std::move(profile), in.boundary, exit_scale(in), orders));
 }
 
 }  // namespace
@@ -127,11 +127,13 @@ const TechniqueDescription& local_scattering_technique() {
         .title = "local reflection with single scattering",
         .authors = "P. Hanrahan, W. Krueger",
         .year = 1993,
-        .paper = "Reflection from Layered Surfaces due to Subsurface Scattering, SIGGRAPH 93; with "
-                 "what a diffusion profile holds of higher orders",
-        .how = "all light leaves where it came in: the first order of a half space in closed form, "
-               "higher orders as Lambert's law with the profile's total, less the first order "
-               "where the profile includes it",
+        .paper =
+            "Reflection from Layered Surfaces due to Subsurface Scattering, SIGGRAPH 93; with "
+            "what a diffusion profile holds of higher orders",
+        .how =
+            "all light leaves where it came in: the first order of a half space in closed form, "
+            "higher orders as Lambert's law with the profile's total, less the first order "
+            "where the profile includes it",
         .precomputes = "the profile's total and the first order's share of it",
         .keeps = {.view = true, .light = true, .geometry = true},
         .parameters = {profile_parameter(), exit_fresnel_parameter(),

@@ -153,10 +153,12 @@ const TechniqueDescription& random_walk_technique() {
         .title = "random walk from surface albedo",
         .authors = "M. J.-Y. Chiang, P. Kutz, B. Burley",
         .year = 2016,
-        .paper = "Practical and Controllable Subsurface Scattering for Production Path Tracing, "
-                 "SIGGRAPH 2016 Talks",
-        .how = "a walk without refraction, isotropic and of diffuse entry and exit, in the medium "
-               "whose half space would return the same share of the light, by their fit",
+        .paper =
+            "Practical and Controllable Subsurface Scattering for Production Path Tracing, "
+            "SIGGRAPH 2016 Talks",
+        .how =
+            "a walk without refraction, isotropic and of diffuse entry and exit, in the medium "
+            "whose half space would return the same share of the light, by their fit",
         .precomputes = "the half space's albedo, by adding and doubling",
         .keeps = {.view = true, .light = true},
         .parameters = {exit_fresnel_parameter(),

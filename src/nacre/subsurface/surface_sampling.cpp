@@ -97,11 +97,13 @@ const TechniqueDescription& surface_sampling_technique() {
     static const TechniqueDescription description{
         .name = "surface",
         .title = "BSSRDF by surface sampling",
-        .authors = "H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan; A. King, C. Kulla, A. "
-                   "Conty, M. Fajardo",
+        .authors =
+            "H. W. Jensen, S. Marschner, M. Levoy, P. Hanrahan; A. King, C. Kulla, A. "
+            "Conty, M. Fajardo",
         .year = 2001,
-        .paper = "A Practical Model for Subsurface Light Transport, SIGGRAPH 2001; BSSRDF "
-                 "Importance Sampling, SIGGRAPH Talks 2013",
+        .paper =
+            "A Practical Model for Subsurface Light Transport, SIGGRAPH 2001; BSSRDF "
+            "Importance Sampling, SIGGRAPH Talks 2013",
         .how = "for each exit one point of entry around it, drawn by probe rays after the profile",
         .precomputes = "tables of the profile",
         .keeps = {.view = true, .light = true},
@@ -109,8 +111,9 @@ const TechniqueDescription& surface_sampling_technique() {
                        single_scattering_parameter()},
         // The six Gaussians are those of skin whatever the medium: only who asks for them gets
         // them.
-        .variants = "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
-                    "profile=photon_beam_diffusion|profile=normalised_diffusion|profile=multipole",
+        .variants =
+            "profile=dipole|profile=better_dipole|profile=quantised_diffusion|"
+            "profile=photon_beam_diffusion|profile=normalised_diffusion|profile=multipole",
         .prepare = prepare_path_technique,
         .below = [](const ShapeInput& in) -> TranslucencyPtr {
             const auto tables = profile_tables(in);

@@ -38,7 +38,7 @@ class TwoPass final : public Translucency {
 struct TwoPassOptions {
     double spacing = 1.;  ///< of points, in transport mean free paths of the densest band
     double error = 0.2;   ///< largest solid angle of a group of points that counts as one, sr
-    int irradiance_samples = 8;  ///< paths at each point
+    int irradiance_samples = 8;                     ///< paths at each point
     PointMethod points = PointMethod::elimination;  ///< how they are spread
 };
 

@@ -20,23 +20,21 @@ Parameter exit_fresnel_parameter() {
 }
 
 Parameter single_scattering_parameter() {
-    return choice_parameter("single_scattering", "whether light scattered once is added",
-                            {{"auto", "to profiles that leave it out"},
-                             {"on", "to any profile"},
-                             {"off", "to none"}});
+    return choice_parameter(
+        "single_scattering", "whether light scattered once is added",
+        {{"auto", "to profiles that leave it out"}, {"on", "to any profile"}, {"off", "to none"}});
 }
 
 float exit_scale(const ShapeInput& in) {
-    const bool paper =
-        std::ranges::find(in.options.parameters(), "exit_fresnel", &Parameter::name) !=
-            in.options.parameters().end() &&
-        in.options.word("exit_fresnel") == "paper";
+    const bool paper = std::ranges::find(in.options.parameters(), "exit_fresnel",
+                                         &Parameter::name) != in.options.parameters().end() &&
+                       in.options.word("exit_fresnel") == "paper";
     return float(1. / (paper ? 1. : in.boundary.mean_transmittance()));
 }
 
 std::shared_ptr<const ProfileTables> profile_tables(const ShapeInput& in) {
-    return std::make_shared<ProfileTables>(in.medium(), in.eta(), in.profile,
-                                           Bands(in.scene.mode), in.rough_return, in.work);
+    return std::make_shared<ProfileTables>(in.medium(), in.eta(), in.profile, Bands(in.scene.mode),
+                                           in.rough_return, in.work);
 }
 
 }  // namespace nacre

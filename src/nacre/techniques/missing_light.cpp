@@ -114,7 +114,8 @@ std::vector<std::string> missing_in_simulation(const Scene& scene) {
 std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& plan) {
     if (plan.is_simulation()) return missing_in_simulation(scene);
     std::vector<std::string> result;
-    if (std::string text = unseen_media(scene, plan); !text.empty()) result.push_back(std::move(text));
+    if (std::string text = unseen_media(scene, plan); !text.empty())
+        result.push_back(std::move(text));
     // Recursive ray tracing and what came before it never had caustics.
     if (plan.integrator == "path")
         if (std::string text = unmet_lights(scene, &plan); !text.empty())
