@@ -74,7 +74,7 @@ class ChangingScenes : public Techniques {
 std::vector<TechniqueChoice> choices() {
     std::vector<TechniqueChoice> all;
     for (const TechniqueDescription* t : techniques()) all.push_back({std::string(t->name)});
-    all.push_back({"surface", {{"single_scattering", "off"}}});
+    all.push_back({"surface", {{"single_scattering", "on"}}});
     return all;
 }
 
