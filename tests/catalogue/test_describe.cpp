@@ -16,6 +16,10 @@ TEST(Describe, ParametersAreLinesOfAPage) {
               "      thickness    of the slab\n"
               "                   (number, (0, inf) mm, default 10)\n"
               "                   also d, depth\n");
+    EXPECT_EQ(parameter_text({.name = "irradiance_samples", .meaning = "paths", .high = 8.}),
+              "      irradiance_samples\n"
+              "                   paths\n"
+              "                   (number, [0, 8], default 0)\n");
     EXPECT_EQ(parameter_text(choice_parameter(
                   "fit", "which", {{"fast", "the quick one", {"quick"}}, {"slow", ""}}, 1)),
               "      fit          which\n"

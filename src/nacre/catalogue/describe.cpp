@@ -47,7 +47,10 @@ std::string parameter_text(const Parameter& p) {
     if (p.kind != ParameterKind::choice) facts += fmt::format(", {}", range_text(p));
     if (!p.unit.empty()) facts += fmt::format(" {}", p.unit);
     facts += fmt::format(", default {}", default_text(p));
-    std::string text = wrapped(fmt::format("      {:<12} ", p.name), p.meaning);
+    // A long name has a line of its own, lest its meaning stand out of the column.
+    const bool is_long = p.name.size() > 12;
+    std::string text = is_long ? fmt::format("      {}\n", p.name) : "";
+    text += wrapped(fmt::format("      {:<12} ", is_long ? "" : p.name), p.meaning);
     text += fmt::format("      {:<12} ({})\n", "", facts);
     for (const Choice& c : p.choices)
         text += wrapped(
