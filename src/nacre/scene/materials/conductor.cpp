@@ -54,30 +54,6 @@ class Conductor final : public Material {
 };
 
 template <class Distribution>
-class RoughConductorBsdf final : public Bsdf {
-  public:
-    using Model = RoughConductor<float, Spectral, Distribution>;
-    explicit RoughConductorBsdf(const Model& model) : model_(model) {}
-
-    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
-        return model_.eval(wi, wo) * wi.z;
-    }
-    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
-    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f u2) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        BsdfSample s;
-        s.wi = model_.sample(wo, u2);
-        s.pdf = model_.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
-    }
-
-  private:
-    Model model_;
-};
-
-template <class Distribution>
 class RoughConductorMaterial final : public Material {
   public:
     RoughConductorMaterial(Roughness roughness, MetalIndex index, TexturePtr reflectance)
@@ -90,7 +66,7 @@ class RoughConductorMaterial final : public Material {
                    BsdfScratch& scratch) const override {
         using Model = RoughConductor<float, Spectral, Distribution>;
         const Vec2f uv = point.uv;
-        return scratch.make<RoughConductorBsdf<Distribution>>(
+        return scratch.make<RoughReflectionBsdf<Model>>(
             Model{roughness_.at<Distribution>(uv), index_.eta->eval(uv, w), index_.k->eval(uv, w),
                   reflectance_->eval(uv, w), roughness_.sampling});
     }

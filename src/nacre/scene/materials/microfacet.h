@@ -25,6 +25,34 @@ struct Roughness {
 };
 Roughness get_roughness(const SceneNode& node, BuildContext& context);
 
+/// A rough surface that reflects, black from the inside, as a path meets it. `Model` is one of the
+/// reflectance models with facets, with one lobe or two.
+template <class Model>
+class RoughReflectionBsdf final : public Bsdf {
+  public:
+    explicit RoughReflectionBsdf(const Model& model) : model_(model) {}
+
+    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
+        return model_.eval(wi, wo) * wi.z;
+    }
+    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
+    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
+        if (!(wo.z > 0.f)) return std::nullopt;
+        BsdfSample s;
+        if constexpr (requires { model_.sample(wo, u1, u2); })
+            s.wi = model_.sample(wo, u1, u2);
+        else
+            s.wi = model_.sample(wo, u2);
+        s.pdf = model_.pdf(s.wi, wo);
+        if (!(s.pdf > 0.f)) return std::nullopt;
+        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
+        return s;
+    }
+
+  private:
+    Model model_;
+};
+
 /// The complex index of a metal: `material` (a name of conductor_names(), "none": a perfect mirror)
 /// or eta and k (0 and 1).
 struct MetalIndex {

@@ -98,30 +98,6 @@ class PlasticMaterial final : public Material {
 };
 
 template <class Distribution>
-class RoughPlasticBsdf final : public Bsdf {
-  public:
-    using Model = RoughPlastic<Spectral, Distribution>;
-    explicit RoughPlasticBsdf(const Model& model) : model_(model) {}
-
-    Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
-        return model_.eval(wi, wo) * wi.z;
-    }
-    float pdf(const Vec3f& wi, const Vec3f& wo) const override { return model_.pdf(wi, wo); }
-    std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
-        if (!(wo.z > 0.f)) return std::nullopt;
-        BsdfSample s;
-        s.wi = model_.sample(wo, u1, u2);
-        s.pdf = model_.pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = model_.eval(s.wi, wo) * (s.wi.z / s.pdf);
-        return s;
-    }
-
-  private:
-    Model model_;
-};
-
-template <class Distribution>
 class RoughPlasticMaterial final : public Material {
   public:
     RoughPlasticMaterial(PlasticParameters parameters, Roughness roughness, RoughBoundary boundary)
@@ -131,7 +107,7 @@ class RoughPlasticMaterial final : public Material {
     const Bsdf& at(const SurfacePoint& point, const Wavelengths& w,
                    BsdfScratch& scratch) const override {
         using Model = RoughPlastic<Spectral, Distribution>;
-        return scratch.make<RoughPlasticBsdf<Distribution>>(
+        return scratch.make<RoughReflectionBsdf<Model>>(
             Model{roughness_.at<Distribution>(point.uv),
                   {p_.diffuse->eval(point.uv, w), p_.eta, boundary_.internal, p_.nonlinear},
                   p_.specular->eval(point.uv, w),
