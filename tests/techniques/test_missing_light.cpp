@@ -35,14 +35,17 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
                ": the picture is as if it were not there; use --integrator volpath" +
                (technique ? ", or a technique (--technique)" : "");
     };
-    const auto unmet = [](const std::string& what, bool technique = true) {
+    const auto unmet = [](const std::string& what, bool technique = true, bool volpath = false) {
         return "point, spot and directional lights do not shine through the smooth boundary of " +
                what +
                ": no path meets them there, and what they would light inside and behind is dark; "
                "use small area lights" +
+               (volpath ? ", --integrator volpath" : "") +
                (technique ? ", a rough boundary or a technique (--technique)" : "");
     };
     const std::string sky = xml::constant_light();
+    const std::string tinted =
+        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + matter;
     const std::string fog = xml::bsdf("null") + matter, jade = xml::dielectric(1.5) + matter,
                       glass = xml::dielectric(1.5),
                       marble = subsurface("dipole", word("method", "brdf")),
@@ -76,25 +79,28 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
         {"behind an opaque surface",
          integrator("path") + sky + named("a", xml::bsdf("diffuse") + matter),
          {}},
-        {"point", integrator("volpath") + point_light + named("a", jade), {unmet("'a'")}},
-        {"spot", integrator("volpath") + spot + named("a", jade), {unmet("'a'")}},
-        {"sun and sky", integrator("volpath") + sun + sky + named("a", jade), {unmet("'a'")}},
-        {"simulated, sun", integrator("path") + sun + named("a", simulated), {unmet("'a'")}},
-        {"glass", integrator("volpath") + sun + named("a", glass), {unmet("'a'", false)}},
-        {"glass, path", integrator("path") + sun + named("a", glass), {unmet("'a'", false)}},
+        {"point", integrator("volpath") + point_light + named("a", tinted), {unmet("'a'")}},
+        {"spot", integrator("volpath") + spot + named("a", tinted), {unmet("'a'")}},
+        {"sun and sky", integrator("volpath") + sun + sky + named("a", jade), {}},
+        {"simulated, sun", integrator("path") + sun + named("a", simulated), {}},
+        {"glass", integrator("volpath") + sun + named("a", glass), {}},
+        {"both",
+         integrator("volpath") + sun + named("a", glass) + named("b", tinted),
+         {unmet("'b'")}},
+        {"glass, path", integrator("path") + sun + named("a", glass), {unmet("'a'", false, true)}},
         {"glass by recursion", integrator("ray") + sun + named("a", glass), {}},
         {"a lamp in its bulb",
          integrator("path") + lamp_inside + named("a", glass),
-         {unmet("'a'", false)}},
+         {unmet("'a'", false, true)}},
         {"both kinds",
          integrator("path") + sun + named("a", glass) + named("b", fog),
-         {unseen("path", "at 'b'", true), unmet("'a'", false)}},
+         {unseen("path", "at 'b'", true), unmet("'a'", false, true)}},
         {"sky", integrator("volpath") + sky + named("a", jade), {}},
         {"fog in the sun", integrator("volpath") + sun + named("a", fog), {}},
         {"a rough boundary", integrator("volpath") + sun + named("a", rough + matter), {}},
         {"thin glass", integrator("path") + sun + named("a", xml::bsdf("thindielectric")), {}},
         {"a technique in the sun", integrator("path") + sun + named("a", marble), {}},
-        {"a lamp inside", integrator("volpath") + lamp_inside + named("a", jade), {}},
+        {"a lamp inside", integrator("volpath") + lamp_inside + named("a", tinted), {}},
     };
     for (const auto& c : cases) {
         const Scene s = scene(c.body);
@@ -125,17 +131,20 @@ TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
 
 TEST_F(MissingLight, MakesNoTruth) {
     const std::string jade = xml::dielectric(1.5) + matter;
+    const std::string tinted =
+        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + matter;
     EXPECT_EQ(
         error_of([&] {
-            require_lit_insides(scene(xml::integrator("path") + point_light + named("a", jade)));
+            require_lit_insides(scene(xml::integrator("path") + point_light + named("a", tinted)));
         }),
         "complete simulation cannot be the reference: point, spot and directional lights do not "
         "light the inside of 'a' through its smooth boundary, so the truth would lack their light; "
         "use small area lights in their place, a rough boundary, or another reference "
         "(--reference)");
     for (const std::string& lit :
-         {xml::constant_light() + named("a", jade), lamp_inside + named("a", jade),
-          point_light + vacuum_ball, sun + named("a", xml::bsdf("null") + matter)})
+         {xml::constant_light() + named("a", tinted), point_light + named("a", jade),
+          lamp_inside + named("a", jade), point_light + vacuum_ball,
+          sun + named("a", xml::bsdf("null") + matter)})
         EXPECT_NO_THROW(require_lit_insides(scene(xml::integrator("path") + lit))) << lit;
 }
 

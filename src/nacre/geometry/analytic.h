@@ -6,6 +6,7 @@
 
 #include "nacre/geometry/mesh.h"
 #include "nacre/geometry/primitives.h"
+#include "nacre/geometry/surface_chart.h"
 
 namespace nacre {
 
@@ -39,6 +40,9 @@ class AnalyticShape {
     /// search over its azimuth, to 1e-9 of its size.
     AnalyticHit closest(const Vec3d& p) const;
     AnalyticPoint at(float u, float v) const;
+    SurfaceChart chart(const ChartTriangle& triangle, double a, double b) const;
+    AnalyticHit chart_hit(const ChartTriangle& triangle, double a, double b) const;
+    std::vector<ChartTriangle> chart_triangles(std::uint32_t shape) const;
     /// Contains the shape, rounded outwards.
     Box3f bounds() const;
     /// Longest extent, a scale for rounding errors.

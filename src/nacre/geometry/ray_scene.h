@@ -8,6 +8,7 @@
 
 #include "nacre/geometry/mesh.h"
 #include "nacre/geometry/primitives.h"
+#include "nacre/geometry/surface_chart.h"
 #include "nacre/math/frame.h"
 
 namespace nacre {
@@ -92,6 +93,12 @@ class RayScene {
     /// Geometry at a hit of `intersect` or `closest`. It follows from the hit alone; the ray is not
     /// looked at.
     SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+
+    /// Pieces that cover a shape; those of a disk overhang its rim.
+    std::vector<ChartTriangle> chart_triangles(std::uint32_t shape) const;
+    SurfaceChart chart(const ChartTriangle& triangle, double a, double b) const;
+    /// That place as a hit, but for t; empty beyond the rim of a disk.
+    std::optional<Hit> chart_hit(const ChartTriangle& triangle, double a, double b) const;
 
     std::size_t shape_count() const;
     Box3f bounds() const;

@@ -52,6 +52,8 @@ struct MediumLanes {
                 log(max(sigma_t, Spectral(1e-30f)) / Spectral(std::max(hero_sigma, 1e-30f)));
     }
 
+    /// Extinction of the lane in which light gets farthest.
+    float least_sigma() const { return min_lane(sigma_t); }
     /// exp(-sigma_t s)
     Spectral transmittance(float s) const {
         return grey ? Spectral(std::exp(-hero_sigma * s)) : exp(-sigma_t * Spectral(s));

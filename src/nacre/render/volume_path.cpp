@@ -29,10 +29,28 @@ struct VolumePath::WalkSurroundings {
     }
 
     void collided(const Walker& w, const DistanceGrid::Cell& cell) {
-        if (cell.guide < 0 || !path.within_depth(static_cast<int>(w.collisions) + 1)) return;
+        if (!path.within_depth(static_cast<int>(w.collisions) + 1)) return;
+        if (!path.tracer_.beams_.empty()) connect_through_boundary(w, cell.clearance);
+        if (cell.guide < 0) return;
         const ExitGuide::Proposal proposal = info.guide.at(w.p, cell.guide);
         if (!(random.next() < proposal.probability())) return;
         path.guided_exit(proposal, w, lanes, random);
+    }
+
+    void connect_through_boundary(const Walker& w, float clearance) {
+        const Reach reach = draw_reach(lanes, random);
+        // Light from the boundary comes at least as far as the boundary is away.
+        const bool near = reach.length > clearance;
+        const bool chain = info.chain_chance > 0.f && random.next() < info.chain_chance &&
+                           path.within_depth(static_cast<int>(w.collisions) + 2);
+        if (!near && !chain) return;
+        const Spectral density = path.density_ * lanes.walk_density(w.collisions, w.length);
+        const Spectral carried = path.throughput_ * lanes.survival(w.collisions) * density *
+                                 Spectral(1.f / path.mean_of(density));
+        if (near) path.connect_collision_through_boundary(w.p, w.d, carried, reach, random);
+        if (chain)
+            path.connect_collision_by_chain(w.p, w.d, carried * Spectral(1.f / info.chain_chance),
+                                            random);
     }
 };
 
@@ -158,6 +176,11 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
 bool VolumePath::at_collision() {
     if (!within_depth(0)) return false;
     connect_to_light(nullptr, nullptr, {});
+    // Where extinction does not vary, the walk has done this.
+    if (!medium_->homogeneous() && !tracer_.beams_.empty() && within_depth(1))
+        connect_collision_through_boundary(
+            ray_.o, ray_.d, throughput_ * density_ * Spectral(1.f / mean_of(density_)), {},
+            sampler_.random());
     if (depth_ > scene_.integrator.rr_depth &&
         !survives(collision_chance(relative_weight()), sampler_.random().next(), throughput_))
         return false;
@@ -183,7 +206,11 @@ bool VolumePath::at_surface() {
     const Vec3f wo = at.shading.to_local(-ray_.d);
     BsdfScratch scratch;
     const Bsdf& bsdf = material.at(at, wavelengths_, scratch);
-    if ((material.flags() & has_smooth) && within_depth(1)) connect_to_light(&at, &bsdf, wo);
+    if ((material.flags() & has_smooth) && within_depth(1)) {
+        connect_to_light(&at, &bsdf, wo);
+        if (!tracer_.beams_.empty() && within_depth(2))
+            connect_surface_through_boundary(at, bsdf, wo);
+    }
 
     const float u1 = sampler_.next1d();
     const Vec2f u2 = sampler_.next2d();

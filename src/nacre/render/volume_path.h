@@ -44,7 +44,7 @@ class VolumePath {
         Spectral kept{0.f}, density{0.f};
     };
     struct WayToLight;
-    Connection connection(const ShadowRay& shadow, const Medium* medium);
+    Connection connection(const ShadowRay& shadow, const Medium* medium, Random& random);
     // Called by the walk: proposes an exit towards a light at a collision.
     struct WalkSurroundings;
     void guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
@@ -52,6 +52,28 @@ class VolumePath {
     // Called when the path leaves through the boundary by itself: notes with what density a
     // proposal would have done so.
     void expect_guided_exit(float transmittance);
+    // Connect a vertex to lights that cannot be met, through one smooth boundary (light_beams.h).
+    // `weight`: what the path carries there, lanes weighted. Ways longer than a reach drawn for the
+    // collision are left out: the chance that a way is kept falls with its length as its light
+    // does, so that most collisions, which are deep, cost nothing.
+    struct Reach {
+        float length = 1e30f, sigma = 0.f;
+        float chance(float way) const;  // that a way of this length is kept
+    };
+    static Reach draw_reach(const MediumLanes& lanes, Random& random);
+    void connect_surface_through_boundary(const SurfacePoint& at, const Bsdf& bsdf,
+                                          const Vec3f& wo);
+    void connect_collision_through_boundary(const Point3f& p, const Vec3f& d_in,
+                                            const Spectral& weight, const Reach& reach,
+                                            Random& random);
+    void connect_collision_by_chain(const Point3f& p, const Vec3f& d_in, const Spectral& weight,
+                                    Random& random);
+    // What comes to the start of such a way, with what lies on it.
+    Spectral arriving(const LightBeams::Way& way, const Point3f& origin, const Medium* medium,
+                      Random& random);
+    // The same over several boundaries (specular_chain.h).
+    Spectral arriving(const SpecularChains::Chain& chain, const Point3f& origin,
+                      const Medium* medium, Random& random);
 
     bool within_depth(int more) const { return max_depth_ < 0 || depth_ + more < max_depth_; }
     // What the path carries, as the roulette weighs it.
@@ -66,6 +88,9 @@ class VolumePath {
     RayCounts& counts_;
     const int max_depth_;
     int hero_;
+
+    std::vector<LightBeams::Way> ways_;  // kept for their memory
+    std::vector<std::uint32_t> boxes_;
 
     Ray ray_;
     const Medium* medium_;

@@ -49,7 +49,7 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Bsdf* bsdf, cons
         f = Spectral(own_pdf);
     }
     if (!(max_lane(f) > 0.f)) return;
-    const Connection c = connection(shadow, medium);
+    const Connection c = connection(shadow, medium, sampler_.random());
     if (!(max_lane(c.kept) > 0.f)) return;
     const float light_pdf = light.pdf * choice.probability;
     const float density = mean_of(
@@ -62,6 +62,7 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Bsdf* bsdf, cons
 struct VolumePath::WayToLight {
     VolumePath& path;
     const Medium* medium;
+    Random& random;
     Connection c{Spectral(1.f), Spectral(1.f)};
 
     bool opaque_only() const { return !path.tracer_.has_null_ && !medium; }
@@ -91,7 +92,6 @@ struct VolumePath::WayToLight {
     // Novak, Selle, Jarosz 2014, Residual Ratio Tracking for Estimating Attenuation in
     // Participating Media, TOG 33(6).
     void ratio_tracking(const Ray& ray, float length) {
-        Random& random = path.sampler_.random();
         MajorantSegments segments(path.tracer_.info(medium).majorants, *medium, ray, length,
                                   path.wavelengths_);
         while (const auto s = segments.next()) {
@@ -111,8 +111,9 @@ struct VolumePath::WayToLight {
     }
 };
 
-VolumePath::Connection VolumePath::connection(const ShadowRay& shadow, const Medium* medium) {
-    WayToLight way{*this, medium};
+VolumePath::Connection VolumePath::connection(const ShadowRay& shadow, const Medium* medium,
+                                              Random& random) {
+    WayToLight way{*this, medium, random};
     return walk_to_light(scene_, shadow, counts_, way) ? way.c : Connection{};
 }
 

@@ -12,6 +12,9 @@ namespace {
 
 // The finest the distance grid gets: 128 cells along the longest side are about 10 MB.
 constexpr int max_grid_cells = 128;
+// Looking for chains costs as much as hundreds of collisions; they carry a tenth of the light or
+// less. Deeper in free paths than about 12 they carry nothing that could be seen.
+constexpr float most_chain_chance = 0.2f;
 // Cells much smaller than a mean free path tell the walk nothing.
 constexpr float cell_in_free_paths = 0.5f;
 
@@ -25,6 +28,8 @@ bool overlap(const Box3f& a, const Box3f& b) {
 VolumePathTracer::VolumePathTracer(const Scene& scene, const Work& work)
     : scene_(scene),
       lights_(scene.lights, scene.rays.bounds(), true),
+      beams_(scene, work),
+      chains_(scene),
       has_null_(has_null_surfaces(scene)) {
     for (const MediumPtr& medium : scene.media) prepare(*medium, work);
 }
@@ -49,6 +54,14 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
         const float this_eta = shape.material->smooth_boundary_eta();
         smooth &= this_eta > 1.f && !shape.exterior && (eta == 0.f || this_eta == eta);
         eta = this_eta;
+    }
+    if (!boundary.empty() && !chains_.empty()) {
+        // Light that is reflected inside has crossed the matter: what is left of it by then.
+        const Vec3f sigma = medium.homogeneous() ? medium.sigma_t->rgb() : Vec3f{};
+        const Vec3f size = bounds.diagonal();
+        const float crossed = std::min({sigma.x, sigma.y, sigma.z}) * medium.scale *
+                              std::min({size.x, size.y, size.z});
+        info.chain_chance = most_chain_chance * std::exp(-0.5f * crossed);
     }
     if (boundary.empty() || scene_.camera_medium == &medium) return;
 

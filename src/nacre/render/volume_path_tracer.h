@@ -14,8 +14,10 @@
 #include "nacre/render/distance_grid.h"
 #include "nacre/render/exit_guide.h"
 #include "nacre/render/integrator.h"
+#include "nacre/render/light_beams.h"
 #include "nacre/render/light_chooser.h"
 #include "nacre/render/majorant_grid.h"
+#include "nacre/render/specular_chain.h"
 
 namespace nacre {
 
@@ -33,6 +35,8 @@ class VolumePathTracer : public Integrator {
         MajorantGrid majorants;
         DistanceGrid grid;
         ExitGuide guide;
+        /// Chance that a collision looks for light that was reflected inside before.
+        float chain_chance = 0.f;
     };
     const MediumInfo& info(const Medium* medium) const { return media_.at(medium); }
 
@@ -42,6 +46,8 @@ class VolumePathTracer : public Integrator {
 
     const Scene& scene_;
     LightChooser lights_;
+    LightBeams beams_;
+    SpecularChains chains_;
     bool has_null_ = false;
     std::unordered_map<const Medium*, MediumInfo> media_;
 };

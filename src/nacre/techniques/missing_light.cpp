@@ -42,6 +42,12 @@ bool refracts_smoothly(const ShapeBinding& shape) {
     return (flags & transmits) && (flags & has_delta) && !(flags & has_null);
 }
 
+/// Simulation follows lights that no path meets through such boundaries (render/light_beams.h,
+/// render/specular_chain.h).
+bool lets_points_in(const ShapeBinding& shape) {
+    return shape.material->smooth_boundary_eta() > 1.f;
+}
+
 /// "'a'", "'a' and 'b'", "'a', 'b' and 3 more".
 std::string names_of(const Scene& scene, const std::vector<std::uint32_t>& shapes) {
     constexpr std::size_t most = 3;
@@ -89,18 +95,21 @@ std::string unmet_lights(const Scene& scene, const RenderPlan* plan) {
     const std::vector<std::uint32_t> shapes =
         shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
             if (!any || !refracts_smoothly(s) || (plan && plan->has_technique(i))) return false;
+            if (!plan && lets_points_in(s)) return false;
             // Matter is lit from within; clear glass does not let a lamp inside shine out.
             return !(!plan && s.interior) || is_lit_from_points(scene, i);
         });
     if (shapes.empty()) return "";
     const bool translucent = std::ranges::any_of(
         shapes, [&](std::uint32_t i) { return is_translucent(scene.shapes[i]); });
+    const bool simulated = plan && std::ranges::all_of(shapes, [&](std::uint32_t i) {
+                               return lets_points_in(scene.shapes[i]);
+                           });
     return fmt::format(
         "point, spot and directional lights do not shine through the smooth boundary of {}: no "
-        "path "
-        "meets them there, and what they would light inside and behind is dark; use small area "
-        "lights{}",
-        names_of(scene, shapes),
+        "path meets them there, and what they would light inside and behind is dark; use small "
+        "area lights{}{}",
+        names_of(scene, shapes), simulated ? ", --integrator volpath" : "",
         translucent ? ", a rough boundary or a technique (--technique)" : "");
 }
 
@@ -132,7 +141,8 @@ std::vector<std::string> warnings_of(const Scene& scene, const RenderPlan& plan)
 void require_lit_insides(const Scene& scene) {
     const std::vector<std::uint32_t> dark =
         shapes_where(scene, [&](std::uint32_t i, const ShapeBinding& s) {
-            return s.interior && refracts_smoothly(s) && is_lit_from_points(scene, i);
+            return s.interior && refracts_smoothly(s) && !lets_points_in(s) &&
+                   is_lit_from_points(scene, i);
         });
     if (dark.empty()) return;
     throw InputError(

@@ -1,0 +1,121 @@
+// Points and directions of light that shine into refracting matter, rendered: flat layers against
+// adding-doubling and a published half space, a ball under a point against small area lights.
+#include "nacre/layers/adding_doubling.h"
+#include "tests/render/render_fixture.h"
+
+namespace nacre {
+namespace {
+
+class DeltaLightTest : public RenderTest {
+  protected:
+    static std::string sun(double cosine) {
+        return fmt::format(
+            "<emitter type=\"directional\"><vector name=\"direction\" x=\"{}\" y=\"{}\" "
+            "z=\"0\"/><float name=\"irradiance\" value=\"1\"/></emitter>",
+            std::sqrt(1 - cosine * cosine), -cosine);
+    }
+    /// 400 free paths wide; the upper face is y = 0.
+    Scene slab(const std::string& light, double eta, double tau, double albedo) {
+        return scene(
+            xml::integrator("volpath") + light +
+            xml::shape("cube", fmt::format("<transform name=\"to_world\"><scale x=\"200\" "
+                                           "y=\"{0}\" z=\"200\"/><translate y=\"-{0}\"/>"
+                                           "</transform>",
+                                           tau / 2) +
+                                   xml::dielectric(eta) +
+                                   xml::medium("interior", xml::number("sigma_t", 1) +
+                                                               xml::number("albedo", albedo))));
+    }
+    struct Layer {
+        double eta, tau, albedo, cosine;
+    };
+    /// Radiance seen from above and from below, at two angles, across the plane of incidence, where
+    /// the lamp's mirror image is not.
+    void check(const Layer& layer, int pixels, std::uint64_t seed) {
+        const LayerStack stack{{{.sigma_s = layer.albedo,
+                                 .sigma_a = 1 - layer.albedo,
+                                 .thickness = layer.tau,
+                                 .eta = layer.eta}}};
+        const double outgoing[] = {0.5, 0.9};
+        const AddingDoublingResult expected =
+            adding_doubling(stack, {&layer.cosine, 1}, outgoing, {.accuracy = 1e-6});
+        const Scene s = slab(sun(layer.cosine), layer.eta, layer.tau, layer.albedo);
+        for (std::size_t o = 0; o < 2; ++o)
+            for (const bool back : {true, false}) {
+                const double truth = (back ? expected.brdf : expected.btdf)[o] * layer.cosine;
+                if (truth < 1e-3) continue;
+                const double mu = outgoing[o], sine = std::sqrt(1 - mu * mu);
+                const Vec3f d{0, float(back ? -mu : mu), float(sine)};
+                const Point3f at{0, back ? 0.f : float(-layer.tau), 0};
+                const RadianceEstimate e =
+                    estimate(s, fixed_ray(at - d * 5.f, d),
+                             {.sampler = "sobol", .pixels = pixels, .samples = 64, .seed = seed});
+                expect_radiance(
+                    e, Vec3d{truth, truth, truth}, 0.2 / std::sqrt(pixels) * truth,
+                    fmt::format("eta {} tau {} albedo {} from {} to {}{}", layer.eta, layer.tau,
+                                layer.albedo, layer.cosine, mu, back ? "" : ", below"),
+                    sidak_deviations(40));
+            }
+    }
+    static std::vector<Layer> layers() {
+        // The second is thin: of what it scatters, a percent was reflected inside before.
+        return {{1.5, 30, 0.9, 1}, {1.5, 1, 0.5, 0.8}, {1.33, 2, 0.9, 0.4}};
+    }
+};
+
+TEST_F(DeltaLightTest, LayersAgreeWithAddingDoubling) {
+    std::uint64_t seed = 21;
+    for (const Layer& layer : layers()) check(layer, 400, seed++);
+}
+
+using LongDeltaLightTest = DeltaLightTest;
+TEST_F(LongDeltaLightTest, LayersAgreeWithAddingDoubling) {
+    std::uint64_t seed = 31;
+    for (const Layer& layer : layers()) check(layer, 8000, seed++);
+}
+
+// R. G. Giovanelli 1955, Reflection by Semi-infinite Diffusers, Optica Acta 2: half space of index
+// 1.5 and albedo 0.9, light from above. Of the 0.2600 that come back, 0.0400 are mirrored.
+TEST_F(DeltaLightTest, AgreesWithGiovanelli) {
+    const Scene s = slab(sun(1), 1.5, 40, 0.9);
+    const RayMaker cosine_weighted = [](Vec2f u) {
+        const float r = std::sqrt(u.x), phi = static_cast<float>(2 * pi) * u.y;
+        const Vec3f d{r * std::cos(phi), -std::sqrt(1 - u.x), r * std::sin(phi)};
+        return Ray{Point3f(0, 0, 0) - d, d};
+    };
+    const RadianceEstimate e =
+        estimate(s, cosine_weighted, {.sampler = "sobol", .pixels = 500, .samples = 64, .seed = 2});
+    EXPECT_NEAR(e.mean.x * pi, 0.2200, 3 * std::hypot(e.error.x * pi, 5e-5));
+    EXPECT_LT(e.error.x * pi, 2e-3);
+}
+
+// A point has no mirror image in the ball; these rays do not meet that of the lamps either.
+TEST_F(DeltaLightTest, PointIsTheLimitOfSmallBalls) {
+    const auto lit = [&](const std::string& lamp) {
+        return scene(xml::integrator("volpath") + lamp +
+                     xml::sphere({}, 1,
+                                 xml::dielectric(1.5) +
+                                     xml::medium("interior", xml::number("sigma_t", 8) +
+                                                                 xml::number("albedo", 0.9))));
+    };
+    const auto ball = [&](double radius) {
+        const double radiance = 100 / (pi * radius * radius);
+        return xml::sphere({3, 3, 0}, radius, xml::area_light({radiance, radiance, radiance}));
+    };
+    const RayMaker rays = ray_bundle({1, 1, 5}, {-0.1f, -0.15f, -1}, 0.2f);
+    const EstimateOptions options{.sampler = "sobol", .pixels = 1300, .samples = 64, .seed = 4};
+    const RadianceEstimate point =
+        estimate(lit("<emitter type=\"point\"><point name=\"position\" x=\"3\" y=\"3\" z=\"0\"/>"
+                     "<float name=\"intensity\" value=\"100\"/></emitter>"),
+                 rays, options);
+    // What the lamp's size changes falls with its square: extrapolated from two.
+    const RadianceEstimate small = estimate(lit(ball(0.25)), rays, options);
+    const RadianceEstimate large = estimate(lit(ball(0.5)), rays, options);
+    const double limit = (4 * small.mean.x - large.mean.x) / 3;
+    const double error = std::hypot(point.error.x, 4 * small.error.x / 3, large.error.x / 3);
+    EXPECT_NEAR(point.mean.x, limit, 3.5 * error);
+    EXPECT_LT(error, 0.05 * limit);
+}
+
+}  // namespace
+}  // namespace nacre
