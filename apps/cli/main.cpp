@@ -36,6 +36,7 @@ constexpr Verb verbs[] = {
     {"slab", "reflectance and transmittance of a stack of layers, by every method", set_up_slab},
     {"check", "check models against reference values and their claims", set_up_check},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
+    {"merge", "put together what was rendered with other seeds or in parts", set_up_merge},
     {"diff", "compare two pictures", set_up_diff},
     {"compare", "compare all techniques on a scene: error, time, memory, as a report",
      set_up_compare},

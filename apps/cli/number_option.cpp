@@ -95,6 +95,55 @@ std::optional<std::int64_t> whole_in(std::string_view text) {
     return static_cast<std::int64_t>(*value);
 }
 
+std::optional<double> seconds_in(std::string_view text) {
+    if (const auto plain = number_in(text)) return *plain >= 0 ? plain : std::nullopt;
+    constexpr std::pair<char, double> units[] = {{'h', 3600.}, {'m', 60.}, {'s', 1.}};
+    double sum = 0;
+    const auto* unit = std::begin(units);  // each once, the large ones first
+    while (!text.empty()) {
+        const std::size_t end = text.find_first_not_of("0123456789.");
+        if (end == text.npos) return {};
+        const auto number = number_in(text.substr(0, end));
+        while (unit != std::end(units) && unit->first != text[end]) ++unit;
+        if (!number || unit == std::end(units)) return {};
+        sum += *number * unit++->second;
+        text.remove_prefix(end + 1);
+        if (text.empty()) return sum;
+    }
+    return {};
+}
+
+std::optional<double> share_in(std::string_view text) {
+    if (text.ends_with('%')) {
+        const auto percent = number_in(text.substr(0, text.size() - 1));
+        if (!percent) return {};
+        return *percent / 100;
+    }
+    const auto plain = number_in(text);
+    return plain && *plain < 1 ? plain : std::nullopt;
+}
+
+CLI::Option* add_duration(CLI::App& app, const std::string& names, double& value,
+                          const std::string& description) {
+    const auto read_it = [](const std::string& text) -> std::optional<double> {
+        const auto s = seconds_in(text);
+        return s && *s > 0 && *s <= 1e9 ? s : std::nullopt;
+    };
+    return declare(app, names, "time above 0 to 1e+09 s, such as 90, 60s, 5m or 1h30m", read_it,
+                   value, description)
+        ->type_name("TIME");
+}
+CLI::Option* add_share(CLI::App& app, const std::string& names, double& value,
+                       const std::string& description) {
+    const auto read_it = [](const std::string& text) -> std::optional<double> {
+        const auto s = share_in(text);
+        return s && *s > 0 && *s <= 1 ? s : std::nullopt;
+    };
+    return declare(app, names, "share above 0 to 100%, such as 1% or 0.01", read_it, value,
+                   description)
+        ->type_name("SHARE");
+}
+
 CLI::Option* add_number(CLI::App& app, const std::string& names, double& value, NumberRange range,
                         const std::string& description) {
     return declare_number(app, names, value, range, description);
@@ -127,8 +176,8 @@ CLI::Option* add_seed(CLI::App& app, std::uint64_t& value, const std::string& de
                      std::numeric_limits<std::uint64_t>::max(), description);
 }
 CLI::Option* add_timeout(CLI::App& app, double& value) {
-    return add_number(app, "--timeout", value, {0, 1e9, true},
-                      "seconds after which to stop and save what there is");
+    return add_duration(app, "--timeout", value,
+                        "after which to stop and save what there is: seconds, or 5m, 1h30m");
 }
 
 }  // namespace nacre::cli

@@ -19,6 +19,11 @@ std::optional<double> number_in(std::string_view text);
 /// The same for whole numbers, also those written like 1e6.
 std::optional<std::int64_t> whole_in(std::string_view text);
 
+/// A time in seconds: "90", "60s", "5m", "1h", "1h30m", "0.5h"; nothing if it is none, or negative.
+std::optional<double> seconds_in(std::string_view text);
+/// A share: "1%", "0.5%", or 0.01, below 1, so that nobody's 1 is taken for 100 %.
+std::optional<double> share_in(std::string_view text);
+
 /// From `low` to `high`, or only between them where an end is open.
 struct NumberRange {
     double low, high;
@@ -42,6 +47,12 @@ CLI::Option* add_whole(CLI::App& app, const std::string& names, int& value, std:
                        std::int64_t high, const std::string& description);
 CLI::Option* add_whole(CLI::App& app, const std::string& names, std::uint64_t& value,
                        std::uint64_t low, std::uint64_t high, const std::string& description);
+
+/// The same for times of more than 0 to 1e9 seconds, and for shares of more than 0 to 100 %.
+CLI::Option* add_duration(CLI::App& app, const std::string& names, double& value,
+                          const std::string& description);
+CLI::Option* add_share(CLI::App& app, const std::string& names, double& value,
+                       const std::string& description);
 
 // Options that several verbs have.
 CLI::Option* add_threads(CLI::App& app, int& value);

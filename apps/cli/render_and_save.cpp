@@ -51,6 +51,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::vector<std
                                 {"invalid_samples", r.film.invalid_count()},
                                 {"mean", {mean.x, mean.y, mean.z}},
                                 {"warnings", warnings}};
+    if (r.noise) json["noise"] = *r.noise;
     for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
     fmt::print("{}\n", json.dump(2));
 }
@@ -78,14 +79,19 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
     const std::vector<std::string> warnings = warnings_of(scene, plan);
     for (const std::string& w : warnings) say("nacre: warning: {}\n", w);
     refuse_too_large(scene.film);
+    FilmKeeper keeper(options.film, options.output, scene, plan);
     const std::atomic<bool>& stop = interrupt_flag();
-    const RenderResult result = [&] {
+    RenderResult result = [&] {
         ProgressBar bar(options.quiet);
         RenderOptions o;
         o.threads = options.threads;
         o.timeout_s = options.timeout_s;
         o.stop = &stop;
-        o.progress = [&](const RenderProgress& p) { bar.show(p); };
+        o.progress = [&](RenderProgress p) {
+            if (p.phase.empty()) p.seconds += keeper.seconds_before();
+            bar.show(p);
+        };
+        keeper.ask(o);
         return render(scene, plan, FrameSettings::of(scene), o);
     }();
 
@@ -104,13 +110,23 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
             prepared ? "before the first sample" : "during precomputation");
         return stopped ? interrupted : failure;
     }
+    const bool kept = keeper.finish(result, options.quiet);
+    const bool open = options.film.noise > 0 && !options.film.samples_given;
+    if (open && !result.complete) result.sampler.samples = int(most);
     const std::filesystem::path file =
         stopped ? unused_name(partial_path(options.output)) : options.output;
     save_render(result, scene, file, {invocation.command_line, version, options.scene_file},
                 options.exposure);
     if (!result.complete)
-        say("nacre: {} with {} to {} of {} samples a pixel\n", stopped ? "interrupted" : "timeout",
-            least, most, scene.sampler.samples);
+        say("nacre: {} with {} to {} {}samples a pixel\n", stopped ? "interrupted" : "timeout",
+            least, most, open ? "" : fmt::format("of {} ", scene.sampler.samples));
+    if (result.noise && (*result.noise > options.film.noise || !options.quiet))
+        say("nacre: {}noise {:.3g} %{} with {} samples a pixel\n",
+            *result.noise > options.film.noise ? "warning: " : "", 100 * *result.noise,
+            *result.noise > options.film.noise
+                ? fmt::format(", more than the {:g} % asked for,", 100 * options.film.noise)
+                : "",
+            least);
     if (!options.quiet)
         say("nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n", file.string(),
             result.film.width(), result.film.height(),
@@ -121,7 +137,7 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
         for (const Statistic& s : result.statistics)
             say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
     if (options.json) print_json(result, scene, warnings, file);
-    return stopped ? interrupted : success;
+    return stopped ? interrupted : kept ? success : failure;
 }
 
 }  // namespace nacre::cli

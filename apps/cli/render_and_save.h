@@ -2,6 +2,7 @@
 // What `render` and `demo` share: render a scene with a progress bar, save it, say what happened.
 #include <filesystem>
 
+#include "apps/cli/film_keeper.h"
 #include "apps/cli/verb.h"
 #include "nacre/techniques/techniques.h"
 
@@ -14,9 +15,10 @@ struct SaveOptions {
     double timeout_s = 0;
     float exposure = 0.f;
     bool strict = false, quiet = false, json = false;
+    FilmOptions film;
 };
 
-/// Returns the exit code: `interrupted` after Ctrl-C, when what there is was saved as
+/// Returns the exit code: `failure` if the film was to be kept and could not; `interrupted` after Ctrl-C, when what there is was saved as
 /// NAME.partial.exr (NAME.partial-2.exr if that exists); `failure` after a timeout before the first
 /// sample. Throws InputError for a picture that the memory does not hold. Throws RunError for
 /// invalid samples if `strict`, and then writes nothing.

@@ -42,6 +42,7 @@ Action set_up_check(CLI::App& app, const Invocation& invocation);
 Action set_up_models(CLI::App& app, const Invocation& invocation);
 Action set_up_info(CLI::App& app, const Invocation& invocation);
 Action set_up_diff(CLI::App& app, const Invocation& invocation);
+Action set_up_merge(CLI::App& app, const Invocation& invocation);
 Action set_up_compare(CLI::App& app, const Invocation& invocation);
 Action set_up_image(CLI::App& app, const Invocation& invocation);
 Action set_up_gallery(CLI::App& app, const Invocation& invocation);

@@ -8,8 +8,10 @@
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/image/image.h"
 #include "nacre/math/error.h"
+#include "nacre/render/noise.h"
 #include "nacre/scene/load.h"
 #include "nacre/techniques/missing_light.h"
+#include "nacre/techniques/render_state.h"
 
 namespace nacre::cli {
 namespace {
@@ -17,6 +19,36 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json point(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+/// Of a film's state: of which renders it is, and whether it is as it was written.
+void add_film(const std::filesystem::path& file, ordered_json& json) {
+    json["kind"] = "film state";
+    if (json["metadata"].contains("nacre.key")) {  // by `compare`, which keeps its own book
+        json["kind"] = "reference of compare";
+        try {
+            FilmState::load(file);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+        }
+        return;
+    }
+    const RenderState state = RenderState::load(file);
+    std::uint32_t least = ~0u, most = 0;
+    for (int y = 0; y < state.film.height(); ++y)
+        for (int x = 0; x < state.film.width(); ++x) {
+            least = std::min(least, state.film.drawn(x, y));
+            most = std::max(most, state.film.drawn(x, y));
+        }
+    ordered_json film{{"complete", state.complete}, {"fewest_samples", least},
+                      {"most_samples", most},       {"samples", state.samples},
+                      {"seconds", state.seconds},   {"cpu_seconds", state.cpu_seconds}};
+    if (const double noise = film_noise(state.film); std::isfinite(noise)) film["noise"] = noise;
+    for (const RenderPart& p : state.parts)
+        film["renders"].push_back(
+            {{"seed", p.seed}, {"samples", p.samples}, {"window", {p.x, p.y, p.width, p.height}}});
+    for (const auto& [name, value] : state.identity) film["of"][name] = value;
+    json["film"] = film;
+}
 
 ordered_json describe_image(const std::filesystem::path& file) {
     // Asked what is in a file, one shows what is there, be it a picture or not.
@@ -46,6 +78,7 @@ ordered_json describe_image(const std::filesystem::path& file) {
     ordered_json json{{"file", file.string()}, {"kind", "image"},
                       {"width", image.width},  {"height", image.height},
                       {"channels", channels},  {"metadata", image.metadata}};
+    if (image.metadata.contains("nacre.film")) add_film(file, json);
     if (!image.layers.empty()) json["layers"] = image.layers;
     if (!image.data_window.empty()) json["data_window"] = image.data_window;
     return json;

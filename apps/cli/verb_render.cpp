@@ -14,6 +14,7 @@ namespace {
 
 struct Options {
     SceneInput input;
+    FilmOptions film;
     std::string output, crop, integrator, technique, profile;
     std::vector<std::string> set;
     int threads = 0, spp = 0;
@@ -74,8 +75,18 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     std::vector<std::filesystem::path> read;
     Scene scene = load(o.input, app, &read);
     refuse_input_as_output(save.output, read);
+    if (o.film.keeps()) refuse_input_as_output(film_path(save.output), read);
     if (!o.crop.empty()) set_crop(scene.film, o.crop);
     if (o.spp) scene.sampler.samples = o.spp;
+    save.film = o.film;
+    if (o.film.noise > 0) {
+        save.film.samples_given = o.spp > 0;
+        if (!o.spp && scene.sampler.type == "stratified")
+            throw InputError(
+                "--noise: the sampler 'stratified' has to know how many samples there will be; "
+                "give the most by --spp, or choose 'independent'");
+        if (!o.spp) scene.sampler.samples = most_samples;
+    }
     if (app.count("--seed")) scene.sampler.seed = o.seed;
     if (!o.integrator.empty()) scene.integrator.type = o.integrator;
     if (o.no_distance_grid) scene.integrator.distance_grid = false;
@@ -106,6 +117,7 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
     add_seed(app, o->seed, "of the random numbers, instead of the scene's");
     app.add_option("--crop", o->crop, "x,y,width,height: render only this part of the film");
     add_timeout(app, o->timeout);
+    add_film_options(app, o->film);
     app.add_option("--integrator", o->integrator, "ray, path or volpath, instead of the scene's");
     app.add_option("--technique", o->technique,
                    fmt::format("how translucent shapes are rendered: {}",

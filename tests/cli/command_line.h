@@ -1,11 +1,14 @@
 #pragma once
 // Runs the program in a folder of its own, as a user does.
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace nacre::test {
 
@@ -65,6 +68,24 @@ class CommandLine : public testing::Test {
         fs::remove(out);
         fs::remove(err);
         return r;
+    }
+    /// Starts `nacre words` in the folder, standard error in the file `log`.
+    pid_t start(std::vector<std::string> words, const std::string& log) const {
+        words.insert(words.begin(), NACRE_BINARY);
+        std::vector<char*> arguments;
+        for (std::string& w : words) arguments.push_back(w.data());
+        arguments.push_back(nullptr);
+        const pid_t child = fork();
+        if (child != 0) return child;
+        signal(SIGHUP, SIG_DFL);
+        if (chdir(folder_.c_str()) != 0 || !freopen(log.c_str(), "w", stderr)) _exit(99);
+        execv(NACRE_BINARY, arguments.data());
+        _exit(98);
+    }
+    /// Waits until a line of progress says that the work has begun.
+    void wait_for(const std::string& log, const std::string& what) const {
+        for (int i = 0; i < 600 && read(folder_ / log).find(what) == std::string::npos; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     /// Files beyond those that SetUp made.
     std::vector<std::string> written() const {

@@ -32,7 +32,8 @@ TEST_F(CommandLine, WrongCommandLinesAreAnsweredExactlyAndWriteNothing) {
         {"render quick.xml --spp four", "--spp: 'four' is not a whole number from 1 to 1073741824"},
         {"render quick.xml --spp 0", "--spp: '0' is not a whole number from 1 to 1073741824"},
         {"render quick.xml -t 0", "--threads: '0' is not a whole number from 1 to 65536"},
-        {"render quick.xml --timeout -1", "--timeout: '-1' is not a number above 0 to 1e+09"},
+        {"render quick.xml --timeout -1",
+         "--timeout: '-1' is not a time above 0 to 1e+09 s, such as 90, 60s, 5m or 1h30m"},
         {"render quick.xml --size 64",
          "--size: '64' is not a size; write WIDTHxHEIGHT in pixels, from 1 to 65536 each, such as "
          "640x480"},

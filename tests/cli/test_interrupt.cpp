@@ -23,24 +23,6 @@ class Interrupt : public test::CommandLine {
             << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n"
                "v -1 1 1\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
     }
-    /// Starts `nacre words` in the folder, standard error in the file `log`.
-    pid_t start(std::vector<std::string> words, const std::string& log) const {
-        words.insert(words.begin(), NACRE_BINARY);
-        std::vector<char*> arguments;
-        for (std::string& w : words) arguments.push_back(w.data());
-        arguments.push_back(nullptr);
-        const pid_t child = fork();
-        if (child != 0) return child;
-        signal(SIGHUP, SIG_DFL);
-        if (chdir(folder_.c_str()) != 0 || !freopen(log.c_str(), "w", stderr)) _exit(99);
-        execv(NACRE_BINARY, arguments.data());
-        _exit(98);
-    }
-    /// Waits until a line of progress says that the work has begun.
-    void wait_for(const std::string& log, const std::string& what) const {
-        for (int i = 0; i < 600 && read(folder_ / log).find(what) == std::string::npos; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
 };
 
 /// Minutes of irradiance at the points of a cube.

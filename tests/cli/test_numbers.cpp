@@ -10,6 +10,8 @@ class Numbers : public test::CommandLine {};
 
 constexpr const char* whole_64 = "is not a whole number from 0 to 18446744073709551615";
 constexpr const char* photons = "is not a whole number from 64 to 9007199254740992";
+constexpr const char* time = "is not a time above 0 to 1e+09 s, such as 90, 60s, 5m or 1h30m";
+constexpr const char* share = "is not a share above 0 to 100%, such as 1% or 0.01";
 constexpr const char* samples = "is not a whole number from 1 to 1073741824";
 
 TEST_F(Numbers, OutsideOfTheirRangeAreRefusedWithIt) {
@@ -51,11 +53,23 @@ TEST_F(Numbers, OutsideOfTheirRangeAreRefusedWithIt) {
         {"render quick.xml --spp 1.5", "--spp", "1.5", samples},
         {"render quick.xml --spp ''", "--spp", "", samples},
         {"render quick.xml --spp \"1'000\"", "--spp", "1'000", samples},
-        {"render quick.xml --timeout nan", "--timeout", "nan", "is not a number above 0 to 1e+09"},
-        {"render quick.xml --timeout inf", "--timeout", "inf", "is not a number above 0 to 1e+09"},
-        {"render quick.xml --timeout 1.2.3", "--timeout", "1.2.3",
-         "is not a number above 0 to 1e+09"},
-        {"demo --timeout 0", "--timeout", "0", "is not a number above 0 to 1e+09"},
+        {"render quick.xml --timeout nan", "--timeout", "nan", time},
+        {"render quick.xml --timeout inf", "--timeout", "inf", time},
+        {"render quick.xml --timeout 1.2.3", "--timeout", "1.2.3", time},
+        // Units in another order, of another name, twice, or alone.
+        {"render quick.xml --timeout 5m1h", "--timeout", "5m1h", time},
+        {"render quick.xml --timeout 200ms", "--timeout", "200ms", time},
+        {"render quick.xml --timeout 1m1m", "--timeout", "1m1m", time},
+        {"render quick.xml --timeout 1h30", "--timeout", "1h30", time},
+        {"render quick.xml --timeout m", "--timeout", "m", time},
+        {"render quick.xml --timeout -5m", "--timeout", "-5m", time},
+        {"render quick.xml --checkpoint 0s", "--checkpoint", "0s", time},
+        {"render quick.xml --noise 1", "--noise", "1", share},
+        {"render quick.xml --noise 0%", "--noise", "0%", share},
+        {"render quick.xml --noise 101%", "--noise", "101%", share},
+        {"render quick.xml --noise -1%", "--noise", "-1%", share},
+        {"render quick.xml --noise %", "--noise", "%", share},
+        {"demo --timeout 0", "--timeout", "0", time},
         {"render quick.xml --exposure nan", "--exposure", "nan",
          "is not a number from -100 to 100"},
         {"image a.exr -o b.exr --exposure 101", "--exposure", "101",

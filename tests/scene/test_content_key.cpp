@@ -47,6 +47,36 @@ TEST_F(ContentKey, IsThatOfWhatIsSeen) {
     EXPECT_NE(key("0.5"), plain) << "the mesh is part of the scene";
 }
 
+/// What differs is named, and only that.
+TEST_F(ContentKey, ByPart) {
+    const auto parts = [&](const std::string& grey, const LoadOptions& options = {}) {
+        key(grey, "independent", options);
+        return content_keys_by_part(load_scene(folder_ / "s.xml", options));
+    };
+    const auto different = [](const auto& a, const auto& b) {
+        std::string names;
+        for (const auto& [name, value] : a)
+            if (!b.contains(name) || b.at(name) != value) names += name + " ";
+        return names;
+    };
+    const auto plain = parts("0.5");
+    std::string names;
+    for (const auto& [name, value] : plain) names += name + " ";
+    EXPECT_EQ(names, "emitter integrator mesh scene sensor shape ");
+    EXPECT_EQ(different(plain, parts("0.5")), "");
+    EXPECT_EQ(different(plain, parts("0.6")), "shape ");
+    LoadOptions wide;
+    wide.width = 100, wide.height = 50;
+    EXPECT_EQ(different(plain, parts("0.5", wide)), "") << "the film is in none";
+    std::ifstream in(folder_ / "s.xml");
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    text.insert(text.find("<sampler"),
+                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"9\"/></film>");
+    EXPECT_EQ(different(plain, content_keys_by_part(load_scene(write("film.xml", text)))), "");
+    write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n");
+    EXPECT_EQ(different(plain, parts("0.5")), "mesh shape ");
+}
+
 TEST_F(ContentKey, OfScenesWithoutAFile) {
     EXPECT_EQ(content_key(make_demo_scene(30, 40)), content_key(make_demo_scene(30, 40)));
     EXPECT_NE(content_key(make_demo_scene(30, 40)), content_key(make_demo_scene(40, 40)));

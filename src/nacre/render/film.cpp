@@ -96,6 +96,21 @@ void Film::merge(const Film& other) {
     for (const InvalidSample& s : other.invalid_) keep_invalid(s);
 }
 
+void Film::copy_pixels(const Film& from, int x0, int y0, int x1, int y1) {
+    for (int y = y0; y < y1; ++y) {
+        const std::size_t first = index(x0, y), n = std::size_t(x1 - x0);
+        std::copy_n(&from.pixels_[first], n, &pixels_[first]);
+        if (!negative_.empty()) std::copy_n(&from.negative_[first], n, &negative_[first]);
+    }
+}
+
+void Film::copy_invalid(const Film& from) {
+    const std::lock_guard lock(*from.invalid_mutex_);
+    invalid_.clear();
+    for (const InvalidSample& s : from.invalid_)
+        if (s.sample < drawn(s.x - settings_.crop_x, s.y - settings_.crop_y)) keep_invalid(s);
+}
+
 std::string Film::describe() const {
     const FilmSettings& s = settings_;
     return fmt::format("{} x {} pixels, window {},{} {}x{}, {} filter", s.width, s.height, s.crop_x,
@@ -156,6 +171,8 @@ Vec3f Film::sample_variance(int x, int y) const {
 std::uint32_t Film::count(int x, int y) const {
     return pixels_[index(x, y)].count + (negative_.empty() ? 0 : negative_[index(x, y)].count);
 }
+
+std::uint32_t Film::drawn(int x, int y) const { return count(x, y) + pixels_[index(x, y)].invalid; }
 
 std::uint64_t Film::invalid_count() const {
     std::uint64_t n = 0;

@@ -63,6 +63,8 @@ class Film {
     Vec3f sample_variance(int x, int y) const;
     /// Valid samples.
     std::uint32_t count(int x, int y) const;
+    /// Samples, valid or not: the index of the next one, where they came in order.
+    std::uint32_t drawn(int x, int y) const;
 
     std::uint64_t invalid_count() const;
     /// The first invalid samples in the order of rows, columns and samples; at most 16.
@@ -72,6 +74,12 @@ class Film {
     /// one's: tiles and batches that were rendered elsewhere. Throws InputError if it shows another
     /// picture. Sums of different samples of a pixel may round otherwise than in one film.
     void merge(const Film& other);
+
+    /// Makes the pixels [x0, x1) x [y0, y1) of the crop window those of a film of the same settings.
+    void copy_pixels(const Film& from, int x0, int y0, int x1, int y1);
+    /// Takes over the invalid samples of a film whose pixels were copied before, but for those that
+    /// came later. Other threads may add samples to `from` meanwhile.
+    void copy_invalid(const Film& from);
 
   private:
     friend class FilmState;

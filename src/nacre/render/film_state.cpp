@@ -200,6 +200,9 @@ FilmState FilmState::decode(const std::string& bytes) {
             s.y = int(invalid.number());
             s.sample = std::uint32_t(invalid.number());
             for (int c = 0; c < 3; ++c) s.value[c] = float(invalid.number());
+            const int x = s.x - settings.crop_x, y = s.y - settings.crop_y;
+            if (x < 0 || y < 0 || x >= film.width() || y >= film.height())
+                throw damaged("an invalid sample beyond its pixels");
             film.invalid_.push_back(s);
         }
         for (auto a = header.begin(); a != header.end(); ++a) {

@@ -34,6 +34,7 @@ void add_metadata(Image& image, const RenderResult& result, const Scene& scene,
     put("sampler", result.sampler.type);
     put("seed", fmt::to_string(result.sampler.seed));
     put("samples", fmt::to_string(result.sampler.samples));
+    if (result.noise) put("noise", fmt::format("{:.6g}", *result.noise));
     put("complete", result.complete ? "yes" : "no");
     const FilmSettings& f = result.film.settings();
     if (f.crop_width != f.width || f.crop_height != f.height)

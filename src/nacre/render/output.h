@@ -17,7 +17,7 @@ struct RenderOrigin {
 /// variance of one sample as variance.R, ...; metadata under "nacre.*":
 ///
 ///   command, version, scene, mode (rgb, spectral), quantity (radiance, cd/m^2, lx), integrator,
-///   sampler, seed, samples (a pixel, as asked for), complete (yes, no), crop, seconds,
+///   sampler, seed, samples (a pixel, as asked for), noise (where it was asked for; noise.h), complete (yes, no), crop, seconds,
 ///   cpu_seconds, precompute_seconds, rays, scatterings, invalid (a count), invalid_samples ("x,y
 ///   sample: r g b", separated by semicolons)
 Image render_image(const RenderResult& result, const Scene& scene, const RenderOrigin& origin);

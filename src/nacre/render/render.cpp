@@ -7,10 +7,13 @@
 #include <tbb/task_arena.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
 
+#include "nacre/render/checkpoints.h"
+#include "nacre/render/noise.h"
 #include "nacre/render/render_job.h"
 
 namespace nacre {
@@ -48,8 +51,14 @@ class RenderLoop {
 
     /// Returns whether all samples were rendered.
     bool run() {
-        std::atomic<std::uint64_t> added{0};
+        std::atomic<std::uint64_t> added{job_.drawn()};
+        begun_ = added.load();
+        // Batches end where they would if nothing had been begun, and so does a render at a noise.
+        const int there = job_.least_drawn();
         SampleRange batch = job_.batch_after(0);
+        while (batch.first < batch.last && batch.last <= there)
+            batch = job_.batch_after(batch.last);
+        if (job_.drawn() == job_.total(there) && clean_after(there)) return true;
         while (batch.first < batch.last && !interrupted()) {
             // Each tile by itself: a thread that is done takes the next one.
             tbb::parallel_for(
@@ -59,15 +68,28 @@ class RenderLoop {
                         added += job_.render(job_.tile(t), batch, [&] { return goes_on(); });
                 },
                 tbb::simple_partitioner());
+            if (!stopped_ && clean_after(batch.last)) break;
             batch = job_.batch_after(batch.last);
         }
         begun_ = added.load();
         report(true);
-        return added == job_.total();
+        return clean_at_ > 0 || added == job_.total();
     }
     double seconds() const { return seconds_since(start_); }
+    /// Samples a pixel with which the picture was clean enough; 0: it was not, or nobody asked.
+    int clean_at() const { return clean_at_; }
 
   private:
+    /// Asked when each pixel has so many samples.
+    bool clean_after(int samples) {
+        if (!(options_.noise > 0) || samples < least_noise_samples) return false;
+        const double noise = film_noise(job_.film());
+        if (noise <= options_.noise) clean_at_ = samples;
+        const double ratio = noise / options_.noise;
+        needed_ = std::min(double(job_.total()), double(job_.total(samples)) * ratio * ratio);
+        return clean_at_ > 0;
+    }
+
     bool goes_on() {
         if (interrupted()) return false;
         if (const std::uint64_t n = ++begun_; n % 16 == 0) report(false);
@@ -91,7 +113,14 @@ class RenderLoop {
         const double now = seconds();
         if (!last && now - last_report_ < interval_s) return;
         last_report_ = now;
-        options_.progress({begun_.load(), job_.total(), now});
+        std::uint64_t done = begun_.load(), total = job_.total();
+        // How many samples it takes to a noise is an estimate, known after the first.
+        if (options_.noise > 0) {
+            const double needed = needed_;
+            total = needed > 0 ? std::max(std::uint64_t(needed), done + 1) : total;
+            if (clean_at_ > 0) total = done;
+        }
+        options_.progress({done, total, now});
     }
 
     RenderJob& job_;
@@ -100,6 +129,8 @@ class RenderLoop {
     const Clock::time_point start_ = Clock::now();
     std::atomic<std::uint64_t> begun_{0};
     std::atomic<bool> stopped_{false};
+    std::atomic<double> needed_{0};
+    int clean_at_ = 0;
     std::mutex report_mutex_;
     double last_report_ = 0;
 };
@@ -135,13 +166,25 @@ RenderResult render(const Scene& scene, const Integrator& integrator, const Fram
                     const RenderOptions& options) {
     return with_threads(options.threads, [&] {
         RenderJob job(scene, integrator, frame);
+        if (options.begun) job.go_on_from(*options.begun);
         const double cpu = process_cpu_seconds();
         RenderLoop loop(job, options);
-        const bool complete = loop.run();
+        const bool complete = [&] {
+            const Checkpoints checkpoints(options.checkpoint ? options.checkpoint_s : 0, [&] {
+                const RayCounts counts = job.counts_so_far();
+                const Film film = job.snapshot();
+                options.checkpoint({film, counts, loop.seconds(), process_cpu_seconds() - cpu});
+            });
+            return loop.run();
+        }();
         RenderResult result{.film = std::move(job.film()),
                             .sampler = frame.sampler,
                             .integrator = scene.integrator.type,
                             .complete = complete};
+        if (loop.clean_at() > 0) result.sampler.samples = loop.clean_at();
+        if (options.noise > 0)
+            if (const double noise = film_noise(result.film); std::isfinite(noise))
+                result.noise = noise;
         result.seconds = loop.seconds();
         result.cpu_seconds = process_cpu_seconds() - cpu;
         result.counts = job.counts();

@@ -2,6 +2,7 @@
 // The render loop: tiles in parallel, passes over the samples, progress, interruption.
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "nacre/render/film.h"
@@ -18,6 +19,13 @@ struct RenderProgress {
     double share() const { return total ? double(done) / double(total) : 0.; }
 };
 
+/// A render in the making, for who keeps it.
+struct RenderCheckpoint {
+    const Film& film;  ///< of each pixel its first samples, as many as there are so far
+    RayCounts counts;
+    double seconds, cpu_seconds;  ///< since the start of the render
+};
+
 struct RenderOptions {
     int threads = 0;  ///< 0: all cores
     /// 0: none; when reached, from the start of precomputation on, the render stops after the
@@ -26,11 +34,25 @@ struct RenderOptions {
     const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler
     /// Called from one thread at a time, a few times a second and at the end.
     std::function<void(const RenderProgress&)> progress = {};
+
+    /// What an earlier render of the same frame left: each pixel goes on behind the samples that it
+    /// has, to the bits of one render of all of them. The samplers `independent` and `sobol` do so
+    /// from any number of samples, `stratified` from the same alone. Null: from the start.
+    const Film* begun = nullptr;
+    /// Ends when film_noise (noise.h) is no more than this, after a batch of samples of all pixels
+    /// and at least `least_noise_samples`; 0: all samples. Which batch that is does not depend on
+    /// threads or on where the render was begun.
+    double noise = 0;
+    /// Called every `checkpoint_s` seconds from a thread of its own, while others go on to render.
+    /// Must not throw.
+    std::function<void(const RenderCheckpoint&)> checkpoint = {};
+    double checkpoint_s = 0;
 };
+inline constexpr int least_noise_samples = 32;  ///< a pixel: of fewer, noise is hard to estimate
 
 struct RenderResult {
     Film film;
-    SamplerSettings sampler = {};  ///< of the frame
+    SamplerSettings sampler = {};  ///< of the frame; its samples those at which noise ended it
     std::string integrator = {};   ///< what rendered it, for the picture's metadata
     /// False: stopped or timed out; the film holds what there is, nothing if that was in
     /// precomputation.
@@ -38,6 +60,7 @@ struct RenderResult {
     double seconds = 0;  ///< wall time of the render without precomputation
     double cpu_seconds = 0;
     double precompute_seconds = 0, precompute_cpu_seconds = 0;
+    std::optional<double> noise = {};  ///< film_noise, if it was asked for and all have samples
     RayCounts counts = {};
     Statistics statistics = {};  ///< of precomputation
 };

@@ -51,7 +51,8 @@ RenderJob::RenderJob(const Scene& scene, const Integrator& integrator, const Fra
       samples_(frame.sampler.samples),
       columns_((film_.width() + tile_side - 1) / tile_side),
       rows_((film_.height() + tile_side - 1) / tile_side),
-      total_(std::uint64_t(film_.width()) * film_.height() * std::uint64_t(std::max(0, samples_))) {
+      total_(total(std::max(0, samples_))),
+      tile_mutexes_(std::make_unique<std::mutex[]>(std::size_t(columns_) * rows_)) {
     if (!camera_) throw InputError("the scene has no camera; add a <sensor>");
     if (samples_ < 1)
         throw InputError(
@@ -61,6 +62,42 @@ RenderJob::RenderJob(const Scene& scene, const Integrator& integrator, const Fra
         throw InputError(
             "illuminance needs a camera whose pixels see a solid angle: its rays are "
             "parallel; use a perspective camera or ask for luminance");
+}
+
+void RenderJob::go_on_from(const Film& film) {
+    film_.merge(film);
+    goes_on_ = true;
+}
+
+std::uint64_t RenderJob::drawn() const {
+    std::uint64_t n = 0;
+    for (int y = 0; y < film_.height(); ++y)
+        for (int x = 0; x < film_.width(); ++x)
+            n += std::min(film_.drawn(x, y), std::uint32_t(samples_));
+    return n;
+}
+
+int RenderJob::least_drawn() const {
+    std::uint32_t least = std::uint32_t(samples_);
+    for (int y = 0; y < film_.height(); ++y)
+        for (int x = 0; x < film_.width(); ++x) least = std::min(least, film_.drawn(x, y));
+    return int(least);
+}
+
+Film RenderJob::snapshot() {
+    Film copy(film_.settings());
+    for (int i = 0; i < tile_count(); ++i) {
+        const Tile t = tile(i);
+        const std::lock_guard lock(tile_mutexes_[i]);
+        copy.copy_pixels(film_, t.x0, t.y0, t.x1, t.y1);
+    }
+    copy.copy_invalid(film_);
+    return copy;
+}
+
+RayCounts RenderJob::counts_so_far() {
+    const std::lock_guard lock(mutex_);
+    return counts_;
 }
 
 Tile RenderJob::tile(int index) const {
@@ -80,14 +117,17 @@ std::uint64_t RenderJob::render(const Tile& tile, SampleRange samples,
     std::uint64_t added = 0;
     bool stopped = false;
     for (int y = tile.y0; y < tile.y1 && !stopped; ++y)
-        for (int x = tile.x0; x < tile.x1 && !stopped; ++x)
-            for (int s = samples.first; s < samples.last; ++s) {
+        for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
+            const std::lock_guard lock(tile_mutexes_[y / tile_side * columns_ + x / tile_side]);
+            const int drawn = goes_on_ ? int(film_.drawn(x, y)) : 0;
+            for (int s = std::max(samples.first, drawn); s < samples.last; ++s) {
                 // A path below a dense surface may take a millisecond: asked at every one.
                 stopped = go_on && !go_on();
                 if (stopped) break;
                 render_sample(x, y, static_cast<std::uint32_t>(s), sampler, counts);
                 ++added;
             }
+        }
     const std::lock_guard lock(mutex_);
     counts_ += counts;
     return added;

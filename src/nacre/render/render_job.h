@@ -3,6 +3,7 @@
 // and on what machine. render.h drives all of them on the threads of one.
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 
 #include "nacre/render/film.h"
@@ -32,10 +33,23 @@ class RenderJob {
     /// samples, without area, and if illuminance is asked of a camera whose rays are parallel.
     RenderJob(const Scene& scene, const Integrator& integrator, const FrameSettings& frame);
 
+    /// Begins with what an earlier job of this frame, with however many samples, left: each pixel
+    /// goes on behind the samples that it has. Before any are rendered. Throws InputError if the
+    /// film shows another picture.
+    void go_on_from(const Film& film);
+    /// Samples of the frame that are drawn already.
+    std::uint64_t drawn() const;
+    /// Samples that every pixel has.
+    int least_drawn() const;
+
     int tile_count() const { return columns_ * rows_; }
     Tile tile(int index) const;
     /// Samples of all pixels.
     std::uint64_t total() const { return total_; }
+    /// Of so many samples a pixel.
+    std::uint64_t total(int samples) const {
+        return std::uint64_t(film_.width()) * film_.height() * std::uint64_t(samples);
+    }
     /// The batch that follows so many samples, at most up to the frame's. Batches begin small, for
     /// those who wait to see something, and stay small, so that an interrupted picture is even.
     SampleRange batch_after(int samples) const;
@@ -49,6 +63,12 @@ class RenderJob {
     /// What there is so far. Not while tiles are rendered.
     Film& film() { return film_; }
     const RayCounts& counts() const { return counts_; }
+
+    /// A copy of what there is so far, also while tiles are rendered: of each pixel the samples of
+    /// whole batches, from which `go_on_from` goes on. It waits for the pixels in the making, and
+    /// their threads for the copy of a tile.
+    Film snapshot();
+    RayCounts counts_so_far();
 
   private:
     void render_sample(int x, int y, std::uint32_t s, Sampler& sampler, RayCounts& counts);
@@ -64,6 +84,9 @@ class RenderJob {
     std::uint64_t total_;
     std::mutex mutex_;
     RayCounts counts_;
+    bool goes_on_ = false;  ///< pixels may have samples that are not to be drawn again
+    /// Of each tile: held while one of its pixels gets a batch, and while it is copied.
+    std::unique_ptr<std::mutex[]> tile_mutexes_;
 };
 
 }  // namespace nacre

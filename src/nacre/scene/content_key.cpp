@@ -61,8 +61,14 @@ void add_color(Hash& hash, const ColorValue& c) {
     hash.add_all(c.values);
 }
 
-void add_node(Hash& hash, const SceneNode& node,
-              const std::vector<std::filesystem::path>& search_path) {
+using LeftOut = std::initializer_list<std::string_view>;
+
+bool is_in(LeftOut names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+void add_values(Hash& hash, const SceneNode& node,
+                const std::vector<std::filesystem::path>& search_path) {
     hash.add(node.tag);
     hash.add(node.type);
     hash.add(std::uint64_t(node.values.size()));
@@ -81,13 +87,37 @@ void add_node(Hash& hash, const SceneNode& node,
             for (double m : transform->matrix()) hash.add(m);
         if (const auto* color = std::get_if<ColorValue>(&v.value)) add_color(hash, *color);
     }
+}
+
+void add_node(Hash& hash, const SceneNode& node,
+              const std::vector<std::filesystem::path>& search_path, LeftOut left_out) {
+    add_values(hash, node, search_path);
     for (const SceneNode::Child& child : node.children) {
-        if (child.node->tag == "sampler" || child.node->tag == "integrator") continue;
+        if (is_in(left_out, child.node->tag)) continue;
         hash.add(child.name);
-        add_node(hash, *child.node, search_path);
+        add_node(hash, *child.node, search_path, left_out);
     }
     hash.add(std::string_view("end"));
 }
+
+/// Meshes that came from no file are part of no node.
+void add_meshes(Hash& hash, const Scene& scene) {
+    for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
+        if (const Mesh* mesh = scene.rays.mesh(i)) {
+            hash.add_all(mesh->positions);
+            hash.add_all(mesh->triangles);
+            hash.add_all(mesh->normals);
+            hash.add_all(mesh->uvs);
+        }
+}
+
+const SceneNode& root_of(const Scene& scene) {
+    if (!scene.root)
+        throw InputError("the scene was put together by hand: there is nothing to make a key of");
+    return *scene.root;
+}
+
+std::string text(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
 
 void add_film(Hash& hash, const FilmSettings& film) {
     for (int v : {film.width, film.height, film.crop_x, film.crop_y, film.crop_width,
@@ -104,24 +134,29 @@ std::uint64_t hash_bytes(std::string_view bytes) {
 }
 
 std::string content_key(const Scene& scene) {
-    if (!scene.root)
-        throw InputError("the scene was put together by hand: there is nothing to make a key of");
+    const SceneNode& root = root_of(scene);
     Hash hash;
     hash.add(std::string_view("nacre scene 1"));
-    add_node(hash, *scene.root, scene.search_path);
-    // Meshes that came from no file are part of no node.
-    for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
-        if (const Mesh* mesh = scene.rays.mesh(i)) {
-            hash.add_all(mesh->positions);
-            hash.add_all(mesh->triangles);
-            hash.add_all(mesh->normals);
-            hash.add_all(mesh->uvs);
-        }
+    add_node(hash, root, scene.search_path, {"sampler", "integrator"});
+    add_meshes(hash, scene);
     add_film(hash, scene.film);
     hash.add(std::uint64_t(scene.mode));
     hash.add(std::uint64_t(std::int64_t(scene.integrator.max_depth)));
     hash.add(std::uint64_t(scene.integrator.hide_emitters));
-    return fmt::format("{:016x}", hash.value());
+    return text(hash);
+}
+
+std::map<std::string, std::string> content_keys_by_part(const Scene& scene) {
+    const SceneNode& root = root_of(scene);
+    std::map<std::string, Hash> parts;
+    add_values(parts["scene"], root, scene.search_path);
+    parts["scene"].add(scene.mm_per_unit);
+    for (const SceneNode::Child& child : root.children)
+        add_node(parts[child.node->tag], *child.node, scene.search_path, {"sampler", "film"});
+    add_meshes(parts["mesh"], scene);
+    std::map<std::string, std::string> keys;
+    for (const auto& [name, hash] : parts) keys[name] = text(hash);
+    return keys;
 }
 
 }  // namespace nacre
