@@ -166,6 +166,19 @@ class RenderTest : public SceneFiles {
         write_image(image, folder_ / "sky.pfm");
         return "<emitter type=\"envmap\"><string name=\"filename\" value=\"sky.pfm\"/></emitter>";
     }
+    /// An even sky of radiance 0.2 with a bright window of some 20 x 18 degrees about a direction up
+    /// and to the side of -z.
+    std::string window_sky(const Vec3f& radiance) const {
+        Image image(128, 64);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    image.at(x, y, c) =
+                        x >= 3 && x < 10 && y >= 21 && y < 27 ? radiance[std::size_t(c)] : 0.2f;
+        write_image(image, folder_ / "window.pfm");
+        return "<emitter type=\"envmap\"><string name=\"filename\" "
+               "value=\"window.pfm\"/></emitter>";
+    }
     /// Writes Mitsuba's .vol format: n^3 cells, value(x, y, z, channel).
     template <class F>
     void write_vol(const std::string& name, int n, int channels, F&& value) const {
@@ -206,6 +219,11 @@ inline std::string bsdf(const std::string& type, const std::string& inside = "")
 }
 inline std::string dielectric(double index) {
     return bsdf("dielectric", number("int_ior", index) + number("ext_ior", 1));
+}
+inline std::string rough_dielectric(double index, double alpha, const std::string& facets = "ggx") {
+    return bsdf("roughdielectric", "<string name=\"distribution\" value=\"" + facets + "\"/>" +
+                                       number("alpha", alpha) + number("int_ior", index) +
+                                       number("ext_ior", 1));
 }
 inline std::string constant_light(double radiance = 1) {
     return "<emitter type=\"constant\">" + rgb("radiance", Vec3d(radiance, radiance, radiance)) +

@@ -48,8 +48,9 @@ class Accelerations : public RenderTest {
             }
         return "<string name=\"filename\" value=\"lens.obj\"/>";
     }
-    static std::string body_of(const std::string& phase) {
-        return xml::dielectric(1.4) +
+    static std::string body_of(const std::string& phase,
+                               const std::string& boundary = xml::dielectric(1.4)) {
+        return boundary +
                xml::medium("interior", xml::rgb("sigma_t", {6, 10, 16}) +
                                            xml::rgb("albedo", {0.99, 0.95, 0.8}) + phase);
     }
@@ -175,6 +176,33 @@ TEST_F(Accelerations, GuidedExitsLeaveSingleScattering) {
     }
 }
 
+// The same for the sky, and for rough boundaries, whose three ways to the light all are likely: the
+// light is large enough to be met by scattering at the boundary.
+TEST_F(Accelerations, GuidedExitsLeaveSingleScatteringOfOtherKinds) {
+    const std::string sky = window_sky({60, 50, 40});
+    struct Case {
+        std::string boundary, light;
+        float x;
+    };
+    const std::string smooth = xml::dielectric(1.4), rough = xml::rough_dielectric(1.4, 0.2);
+    const std::string ball = xml::sphere({13, 0, 9}, 7, xml::area_light({10, 10, 10}));
+    for (const Case& k : {Case{smooth, sky, 1}, Case{smooth, sky, 3}, Case{rough, ball, 1},
+                          Case{rough, ball, 2.5}, Case{xml::rough_dielectric(1.4, 0.5), sky, 1}}) {
+        const auto make = [&](bool guided) {
+            return scene(xml::integrator("volpath", xml::integer("max_depth", 4) +
+                                                        xml::flag("guided_exits", guided)) +
+                         xml::sphere({}, 4, body_of(xml::phase("isotropic"), k.boundary)) +
+                         k.light);
+        };
+        // The window is behind; the ball, in front.
+        const float z = k.light == sky ? -1.f : 1.f;
+        const RayMaker rays = ray_bundle({k.x, 0, 4.5f * z}, {0, 0, -z}, 0.1f);
+        const auto a = estimate(make(true), rays, {.pixels = 10000, .seed = 1}),
+                   b = estimate(make(false), rays, {.pixels = 50000, .seed = 2});
+        expect_agreement(a, b, sidak_deviations(15), k.boundary + k.light);
+    }
+}
+
 // What guided exits are there for: a small light, which walks hardly ever find by themselves, and
 // an object that is nearly flat over a free path.
 TEST_F(Accelerations, GuidedExitsLowerTheNoise) {
@@ -187,6 +215,62 @@ TEST_F(Accelerations, GuidedExitsLowerTheNoise) {
     const auto a = estimate(with, rays, {.pixels = 2000}),
                b = estimate(without, rays, {.pixels = 2000});
     for (int c = 0; c < 3; ++c) EXPECT_LT(3 * a.error[c], b.error[c]);
+}
+
+TEST_F(Accelerations, GuidedExitsLowerTheNoiseOfOtherKinds) {
+    const std::string isotropic = xml::phase("isotropic"), rough = xml::rough_dielectric(1.4, 0.2);
+    const std::string ball = xml::sphere({5, 6, 9}, 0.5, xml::area_light({100, 100, 100}));
+    const auto errors = [&](const std::string& boundary, const std::string& light, float z) {
+        const std::string objects = xml::sphere({}, 4, body_of(isotropic, boundary)) + light;
+        const RayMaker rays = ray_bundle({-0.5f, -0.5f, 6 * z}, {0, 0, -z}, 0.1f);
+        return std::pair(
+            estimate(scene(accelerated(true, true) + objects), rays, {.pixels = 2000}).error[1],
+            estimate(scene(accelerated(true, false) + objects), rays, {.pixels = 2000}).error[1]);
+    };
+    const auto sky = errors(xml::dielectric(1.4), window_sky({60, 50, 40}), -1);
+    EXPECT_LT(2 * sky.first, sky.second);
+    const auto lamp = errors(rough, ball, 1);
+    EXPECT_LT(2 * lamp.first, lamp.second);
+}
+
+TEST_F(Accelerations, GuidedExitsLeaveTheMeanUnderAnEnvironment) {
+    const double deviations = sidak_deviations(2 * 3 * 3);
+    const std::string sky = window_sky({60, 50, 40});
+    compare_guided("faces, window",
+                   xml::shape("obj", lens() + xml::flag("face_normals", true) +
+                                         body_of(xml::phase("hg", 0.6))) +
+                       sky,
+                   regions(), ColorMode::rgb_bands, 5000, deviations);
+    compare_guided(
+        "smooth normals, window and ball, spectral",
+        xml::shape("obj", lens() + body_of(xml::phase("isotropic"))) + sky + lights().at("ball"),
+        regions(), ColorMode::spectral, 5000, deviations);
+}
+
+TEST_F(Accelerations, GuidedExitsLeaveTheMeanBehindRoughBoundaries) {
+    const double deviations = sidak_deviations(5 * 3 * 3);
+    const std::string isotropic = xml::phase("isotropic"), hg = xml::phase("hg", 0.6);
+    const auto object = [&](bool smooth, double alpha, const std::string& facets,
+                            const std::string& phase) {
+        return xml::shape("obj", lens() + xml::flag("face_normals", !smooth) +
+                                     body_of(phase, xml::rough_dielectric(1.4, alpha, facets)));
+    };
+    const std::string point =
+        "<emitter type=\"point\"><point name=\"position\" x=\"0.8\" y=\"0.5\" z=\"-3\"/>"
+        "</emitter>";
+    compare_guided("faces, square", object(false, 0.2, "ggx", isotropic) + lights().at("square"),
+                   regions(), ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("smooth normals, two lights and sky",
+                   object(true, 0.1, "beckmann", hg) + lights().at("two lights and sky"), regions(),
+                   ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("smooth normals, ball, spectral",
+                   object(true, 0.4, "ggx", hg) + lights().at("ball"), regions(),
+                   ColorMode::spectral, 5000, deviations);
+    compare_guided("faces, window", object(false, 0.2, "ggx", hg) + window_sky({60, 50, 40}),
+                   regions(), ColorMode::rgb_bands, 5000, deviations);
+    compare_guided("faces, point and sky",
+                   object(false, 0.2, "ggx", isotropic) + point + xml::constant_light(0.1),
+                   regions(), ColorMode::rgb_bands, 5000, deviations);
 }
 
 using LongAccelerations = Accelerations;

@@ -8,12 +8,12 @@ namespace {
 
 class ExitGuideTest : public RenderTest {
   protected:
-    Scene lit_ball(const std::string& lights) {
-        return scene(xml::integrator("volpath") + lights +
-                     xml::sphere({}, 1,
-                                 xml::dielectric(1.4) +
-                                     xml::medium("interior", xml::number("sigma_t", 5) +
-                                                                 xml::number("albedo", 0.9))));
+    Scene lit_ball(const std::string& lights, const std::string& boundary = xml::dielectric(1.4)) {
+        return scene(
+            xml::integrator("volpath") + lights +
+            xml::sphere({}, 1,
+                        boundary + xml::medium("interior", xml::number("sigma_t", 5) +
+                                                               xml::number("albedo", 0.9))));
     }
     static std::string square(const Vec3d& at, double half, const std::string& turn = "") {
         return xml::shape("rectangle",
@@ -46,14 +46,27 @@ struct DirectionCells {
 };
 
 TEST_F(ExitGuideTest, SamplesFollowTheirDensity) {
-    const std::map<std::string, std::string> lights{
-        {"square", square({0, 0, -3}, 1.5)},
-        {"oblique square", square({1.5, 0.5, -2}, 1, "<rotate x=\"1\" y=\"1\" angle=\"20\"/>")},
-        {"ball", ball({0.5, 1, -2.5}, 1)},
-        {"three", square({0, 0, -3}, 1) + ball({0.5, 3, -1.5}, 1) + ball({-3, 0, -1}, 1.2)}};
+    const std::string smooth = xml::dielectric(1.4), rough = xml::rough_dielectric(1.4, 0.2);
+    const std::string window = window_sky({30, 20, 10});
+    const std::string point =
+        "<emitter type=\"point\"><point name=\"position\" x=\"0.5\" "
+        "y=\"1\" z=\"-3\"/></emitter>";
+    struct Case {
+        std::string name, lights, boundary;
+    };
+    const std::vector<Case> cases{
+        {"square", square({0, 0, -3}, 1.5), smooth},
+        {"oblique square", square({1.5, 0.5, -2}, 1, "<rotate x=\"1\" y=\"1\" angle=\"20\"/>"),
+         smooth},
+        {"ball", ball({0.5, 1, -2.5}, 1), smooth},
+        {"three", square({0, 0, -3}, 1) + ball({0.5, 3, -1.5}, 1) + ball({-3, 0, -1}, 1.2), smooth},
+        {"window", window, smooth},
+        {"window and ball", window + ball({0.5, 3, -1.5}, 1), smooth},
+        {"square, rough", square({0, 0, -3}, 1.5), rough},
+        {"window and point, rough", window + point, rough}};
     int proposals_seen = 0;
-    for (const auto& [name, text] : lights) {
-        const Scene s = lit_ball(text);
+    for (const auto& [name, lights, boundary] : cases) {
+        const Scene s = lit_ball(lights, boundary);
         const VolumePathTracer tracer(s);
         const auto& info = tracer.info(s.media.front().get());
         ASSERT_TRUE(info.guide.active()) << name;
@@ -90,7 +103,7 @@ TEST_F(ExitGuideTest, SamplesFollowTheirDensity) {
             double total = 0;
             for (int c = 0; c < cells.count; ++c) {
                 const bool any = observed[c] > 0 || mean_over(c, 8) > 0;
-                expected[c] = any ? n * mean_over(c, 96) * 4 * pi / cells.count : 0;
+                expected[c] = any ? n * mean_over(c, 64) * 4 * pi / cells.count : 0;
                 total += expected[c];
             }
             // The density misses what fails, and only that.
@@ -98,17 +111,27 @@ TEST_F(ExitGuideTest, SamplesFollowTheirDensity) {
             EXPECT_TRUE(test::chi_square_passes(observed, expected)) << name;
         }
     }
-    EXPECT_GE(proposals_seen, 8);
+    EXPECT_GE(proposals_seen, 16);
 }
 
-// At most the strongest four lights are aimed at, and none of what cannot be met by chance.
-TEST_F(ExitGuideTest, IsActiveForAreaLightsBehindSmoothBoundariesOnly) {
+// Below a smooth boundary nothing is aimed at that cannot be met by chance; an even sky is met well
+// enough, however it is given.
+TEST_F(ExitGuideTest, IsActiveWhereThereIsALightToAimAt) {
     const auto active = [&](const Scene& s) {
         return VolumePathTracer(s).info(s.media.front().get()).guide.active();
     };
     EXPECT_TRUE(active(lit_ball(ball({0, 0, 4}, 1))));
     EXPECT_FALSE(active(lit_ball(xml::constant_light())));
     EXPECT_FALSE(active(lit_ball("<emitter type=\"point\"/>")));
+    EXPECT_FALSE(active(lit_ball(two_skies({1, 1, 1}, {1, 1, 1}))));
+    EXPECT_TRUE(active(lit_ball(window_sky({30, 20, 10}))));
+    const std::string rough = xml::rough_dielectric(1.4, 0.2);
+    EXPECT_TRUE(active(lit_ball(ball({0, 0, 4}, 1), rough)));
+    EXPECT_TRUE(
+        active(lit_ball("<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"3\" "
+                        "z=\"0\"/></emitter>",
+                        rough)));
+    EXPECT_FALSE(active(lit_ball(xml::constant_light(), rough)));
     // Light that shines inside, where straight connections can be made.
     EXPECT_FALSE(active(lit_ball(ball({0, 0, 0}, 0.2))));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/math/sampling.h"
 #include "nacre/optics/fresnel.h"
 #include "nacre/render/guide_targets.h"
 #include "nacre/scene/medium.h"
@@ -23,6 +24,9 @@ constexpr float depth_in_free_paths = 4.f;
 // anywhere. Smaller: more proposals, each costing two rays. Chosen on the marble bunny, where
 // variance times time has a flat minimum there.
 constexpr float certain_share = 0.25f;
+// Share of the proposals below a rough boundary that know of no light: facets turn light into
+// directions that the planes would not.
+constexpr float broad_share = 0.15f;
 // Cells from which less than this can be won are left to the walk alone.
 constexpr float min_probability = 0.01f;
 
@@ -36,21 +40,22 @@ Vec3f refract_in(const Vec3f& outside, const Vec3f& n, float cos_outside, float 
 }  // namespace
 
 ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
-                     std::span<const std::uint32_t> boundary, float eta, DistanceGrid& grid,
-                     const Work& work)
-    : eta_(eta) {
+                     std::span<const std::uint32_t> boundary, float eta, float spread,
+                     DistanceGrid& grid, const Work& work)
+    : eta_(eta), spread_(spread) {
     const Vec3f sigma_t = medium.sigma_t->rgb();
     sigma_t_ = (sigma_t.x + sigma_t.y + sigma_t.z) / 3.f * medium.scale;
     Box3f bounds;
     for (const std::uint32_t shape : boundary) bounds.extend(scene.rays.bounds(shape));
-    targets_ = find_guide_targets(scene, bounds, max_targets);
+    targets_ = find_guide_targets(scene, bounds, eta, spread, max_targets);
     if (targets_.empty() || !(sigma_t_ > 0.f)) return;
 
     // The most that the targets could bring: at the surface, facing each.
     float most = 0.f, cos_in;
     for (const GuideTarget& target : targets_)
-        most +=
-            strength(target, bounds.center(), normalize(target.center - bounds.center()), cos_in);
+        most += target.sky
+                    ? target.sky->most()
+                    : strength(target, bounds.center(), target.towards(bounds.center()), cos_in);
     if (!(most > 0.f)) return;
     reference_ = certain_share * most;
 
@@ -105,17 +110,27 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
 
 float ExitGuide::strength(const GuideTarget& target, const Point3f& at, const Vec3f& normal,
                           float& cos_in) const {
+    if (target.sky) {
+        const GuideSky::Strength& s = target.sky->strength(normal);
+        cos_in = s.cos_in;
+        return s.value;
+    }
     const Vec3f to = target.center - at;
     const float d2 = dot(to, to);
-    const Vec3f direction = to * (1.f / std::sqrt(d2));
+    const Vec3f direction = target.point ? target.towards(at) : to * (1.f / std::sqrt(d2));
     const float cos_out = dot(direction, normal);
     if (cos_out < 0.02f) return 0.f;
     cos_in = std::sqrt(1.f - (1.f - cos_out * cos_out) / (eta_ * eta_));
-    const float facing = target.radius > 0.f ? 1.f : std::max(0.f, -dot(direction, target.normal));
-    const float solid_angle =
-        std::min(2.f * std::numbers::pi_v<float>, target.area() * facing / d2);
-    return target.radiance * solid_angle * cos_out / (eta_ * eta_ * cos_in) *
-           (1.f - fresnel_dielectric(cos_out, eta_));
+    float arriving;  // radiance times solid angle
+    if (target.point) {
+        arriving = irradiance_of(*target.point, at);
+    } else {
+        const float facing =
+            target.radius > 0.f ? 1.f : std::max(0.f, -dot(direction, target.normal));
+        arriving = target.radiance *
+                   std::min(2.f * std::numbers::pi_v<float>, target.area() * facing / d2);
+    }
+    return arriving * cos_out / (eta_ * eta_ * cos_in) * (1.f - fresnel_dielectric(cos_out, eta_));
 }
 
 ExitGuide::Proposal ExitGuide::at(const Point3f& y, std::int32_t index) const {
@@ -132,6 +147,9 @@ ExitGuide::Proposal ExitGuide::at(const Point3f& y, std::int32_t index) const {
     p.guide_ = this;
     p.normals_ = cell.normals.data();
     p.y_ = y;
+    if (rough())
+        for (std::size_t j = 0; j < targets_.size(); ++j)
+            if (p.choice_[j] > 0.f && !targets_[j].sky) p.lobes_[j] = targets_[j].lobe(y, spread_);
     return p;
 }
 
@@ -143,7 +161,12 @@ std::optional<Vec3f> ExitGuide::Proposal::sample(Random& random) const {
     const float v = random.next();
     sum = 0.f;
     while (plane + 1 < planes && v >= (sum += plane_weight[plane])) ++plane;
-    const Vec3f outside = guide_->targets_[target].sample(y_, random);
+    const GuideTarget& towards = guide_->targets_[target];
+    if (guide_->rough() && random.next() < broad_share)
+        return Framef::around(normals_[plane])
+            .to_world(square_to_cosine_hemisphere(random.next2()));
+    const Vec3f outside = guide_->rough() && !towards.sky ? lobes_[target].sample(random.next2())
+                                                          : towards.sample(y_, random);
     const float cos_outside = dot(outside, normals_[plane]);
     if (cos_outside < min_cosine) return {};
     return refract_in(outside, normals_[plane], cos_outside, guide_->eta_);
@@ -151,10 +174,13 @@ std::optional<Vec3f> ExitGuide::Proposal::sample(Random& random) const {
 
 float ExitGuide::Proposal::pdf(const Vec3f& direction) const {
     const float eta = guide_->eta_;
+    const bool rough = guide_->rough();
+    const float aimed = rough ? 1.f - broad_share : 1.f;
     float density = 0.f;
     for (int k = 0; k < planes; ++k) {
         const Vec3f& n = normals_[k];
         const float cos_in = dot(direction, n);
+        if (rough) density += plane_weight[k] * broad_share * cosine_hemisphere_pdf(cos_in);
         const float sin2_out = eta * eta * (1.f - cos_in * cos_in);
         if (cos_in <= 0.f || sin2_out >= 1.f) continue;
         const float cos_out = std::sqrt(1.f - sin2_out);
@@ -162,8 +188,12 @@ float ExitGuide::Proposal::pdf(const Vec3f& direction) const {
         const Vec3f outside = (direction - n * cos_in) * eta + n * cos_out;
         float towards = 0.f;
         for (std::size_t j = 0; j < guide_->targets_.size(); ++j)
-            if (choice_[j] > 0.f) towards += choice_[j] * guide_->targets_[j].pdf(y_, outside);
-        density += plane_weight[k] * towards * eta * eta * cos_in / cos_out;
+            if (choice_[j] > 0.f) {
+                const GuideTarget& target = guide_->targets_[j];
+                towards += choice_[j] * (rough && !target.sky ? lobes_[j].pdf(outside)
+                                                              : target.pdf(y_, outside));
+            }
+        density += plane_weight[k] * aimed * towards * eta * eta * cos_in / cos_out;
     }
     return density;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Guided exits: at a collision below a smooth dielectric boundary, a direction that leads out of
-// the object towards a light, for the connection that next-event estimation cannot make because the
+// Guided exits: at a collision below a dielectric boundary, a direction that leads out of the
+// object towards a light, for the connection that next-event estimation cannot make because the
 // boundary refracts.
 //
 // The proposal chooses one of four planes that stand for the boundary nearby, a light, and a
@@ -9,6 +9,10 @@
 // the density of the random walk's own exits is combined with it by the balance heuristic. Proposal
 // and probability of proposing are functions of the collision's position alone, never of the path's
 // history, so that the density can be evaluated for exits that the walk found by itself.
+//
+// Below a rough boundary the direction only has to lead to where the boundary shows the light:
+// there the light is drawn by next-event estimation. Directions outside are spread about each light
+// as the boundary spreads them, and some of those inside are left to chance.
 //
 // Unpublished; near relatives are Walter et al. 2009 (Single Scattering in Refractive Media with
 // Triangle Mesh Boundaries) and manifold next-event estimation (Hanika, Droske, Fascione 2015),
@@ -20,21 +24,30 @@
 
 #include "nacre/math/random.h"
 #include "nacre/render/distance_grid.h"
+#include "nacre/render/guide_lobe.h"
+#include "nacre/render/guide_sky.h"
 #include "nacre/scene/scene.h"
 
 namespace nacre {
 
-/// An area that shines: what directions are proposed towards. A stand-in for the light; it need not
-/// match its shape.
+/// What directions are proposed towards: an area that shines, the bright part of an environment or,
+/// below rough boundaries, a light that is a point. A stand-in for the light; it need not match its
+/// shape.
 struct GuideTarget {
     Point3f center;
     Vec3f u, v;        ///< half axes of a parallelogram; both zero for a sphere
     Vec3f normal;      ///< unit normal of the parallelogram, on the side that shines
     float radius = 0;  ///< of the sphere
     float radiance = 0;
+    std::shared_ptr<const GuideSky> sky;  ///< instead of the area
+    const Light* point = nullptr;         ///< instead of the area
 
     float area() const;
-    /// Density per solid angle, from y, of `sample`.
+    /// Towards the middle of an area or point as seen from y; zero where it does not shine.
+    Vec3f towards(const Point3f& y) const;
+    /// Directions towards an area or point that a rough boundary spreads by `spread`.
+    GuideLobe lobe(const Point3f& y, float spread) const;
+    /// Density per solid angle, from y, of `sample`; not of points.
     float pdf(const Point3f& y, const Vec3f& direction) const;
     Vec3f sample(const Point3f& y, Random& random) const;
 };
@@ -42,13 +55,15 @@ struct GuideTarget {
 class ExitGuide {
   public:
     ExitGuide() = default;
-    /// Guides paths in `medium` out through `boundary` (shapes), all of which are smooth boundaries
-    /// of relative index `eta`. Marks the cells of `grid` near the boundary. Without lights worth
-    /// guiding to, `active` is false. Throws Stopped if `work` says so.
+    /// Guides paths in `medium` out through `boundary` (shapes), all of which are boundaries of
+    /// relative index `eta`: smooth ones if `spread` is 0, else rough ones that spread light that
+    /// leaves by about so much (tangent of the angle). Marks the cells of `grid` near the boundary.
+    /// Without lights worth guiding to, `active` is false. Throws Stopped if `work` says so.
     ExitGuide(const Scene& scene, const Medium& medium, std::span<const std::uint32_t> boundary,
-              float eta, DistanceGrid& grid, const Work& work = {});
+              float eta, float spread, DistanceGrid& grid, const Work& work = {});
 
     bool active() const { return !cells_.empty() && !targets_.empty(); }
+    bool rough() const { return spread_ > 0.f; }
     std::size_t memory() const { return cells_.size() * sizeof(Cell); }
 
     static constexpr int max_targets = 4;
@@ -70,7 +85,8 @@ class ExitGuide {
         const Vec3f* normals_ = nullptr;
         Point3f y_;
         float probability_ = 0.f;
-        std::array<float, max_targets> choice_{};  // probability of each target
+        std::array<float, max_targets> choice_{};   // probability of each target
+        std::array<GuideLobe, max_targets> lobes_;  // of rough boundaries, but for the sky's
     };
     /// `cell` is the index that the grid holds for the cell of y; it must not be -1.
     Proposal at(const Point3f& y, std::int32_t cell) const;
@@ -96,7 +112,7 @@ class ExitGuide {
 
     std::vector<Cell> cells_;
     std::vector<GuideTarget> targets_;
-    float eta_ = 1.f, sigma_t_ = 0.f;
+    float eta_ = 1.f, sigma_t_ = 0.f, spread_ = 0.f;
     float reference_ = 1.f;  // strength at which a proposal is certain
 };
 

@@ -53,13 +53,36 @@ GuideTarget stand_in(const Scene& scene, std::uint32_t shape) {
     return target;
 }
 
+LightSample sample_point(const Light& light, const Point3f& at) {
+    return light.sample(at, {0.5f, 0.5f}, Wavelengths::rgb_bands());
+}
+
 }  // namespace
+
+float irradiance_of(const Light& point, const Point3f& at) {
+    const LightSample s = sample_point(point, at);
+    return s.pdf > 0.f ? luminance({s.radiance[0], s.radiance[1], s.radiance[2]}) : 0.f;
+}
+
+Vec3f GuideTarget::towards(const Point3f& y) const {
+    return point ? sample_point(*point, y).wi : normalize(center - y);
+}
+
+GuideLobe GuideTarget::lobe(const Point3f& y, float spread) const {
+    if (point) return {towards(y), spread * spread};
+    const Vec3f to = center - y;
+    const float d2 = dot(to, to);
+    // Half of a disk lies within 1 / sqrt(2) of its radius.
+    return {to * (1.f / std::sqrt(d2)),
+            spread * spread + 0.5f * area() * std::numbers::inv_pi_v<float> / d2};
+}
 
 float GuideTarget::area() const {
     return radius > 0.f ? std::numbers::pi_v<float> * radius * radius : 4.f * length(cross(u, v));
 }
 
 float GuideTarget::pdf(const Point3f& y, const Vec3f& direction) const {
+    if (sky) return sky->pdf(direction);
     if (radius > 0.f) {
         const Vec3f to = center - y;
         const float d2 = dot(to, to), cosine = dot(to, direction) / std::sqrt(d2);
@@ -86,6 +109,7 @@ float GuideTarget::pdf(const Point3f& y, const Vec3f& direction) const {
 }
 
 Vec3f GuideTarget::sample(const Point3f& y, Random& random) const {
+    if (sky) return sky->sample(random);
     const float scale = random.next() < widened_share ? widening : 1.f;
     const Vec2f r = random.next2();
     if (radius > 0.f) {
@@ -102,7 +126,8 @@ Vec3f GuideTarget::sample(const Point3f& y, Random& random) const {
                      y);
 }
 
-std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, int most) {
+std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, float eta,
+                                            float spread, int most) {
     std::vector<std::pair<float, GuideTarget>> found;
     const Point3f middle = object.center();
     for (std::uint32_t shape = 0; shape < scene.shapes.size(); ++shape) {
@@ -115,6 +140,26 @@ std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& obj
         const Vec3f to = target.center - middle;
         const float strength = target.radiance * target.area() / std::max(1e-12f, dot(to, to));
         if (strength > 0.f) found.emplace_back(strength, target);
+    }
+    for (const LightPtr& light : scene.lights) {
+        if (light->is_delta() && spread > 0.f) {
+            GuideTarget target;
+            target.point = light.get();
+            // Towards all sides of the object: a spot may pass by its centre.
+            float strength = irradiance_of(*light, middle);
+            for (int corner = 0; corner < 8; ++corner) {
+                const auto& [a, b] = std::tie(object.lower, object.upper);
+                strength = std::max(
+                    strength, irradiance_of(*light, {corner & 1 ? a.x : b.x, corner & 2 ? a.y : b.y,
+                                                     corner & 4 ? a.z : b.z}));
+            }
+            if (strength > 0.f) found.emplace_back(strength, target);
+        }
+        if (light->is_infinite()) {
+            GuideTarget target;
+            target.sky = GuideSky::of(*light, eta, spread);
+            if (target.sky) found.emplace_back(target.sky->flux(), target);
+        }
     }
     std::ranges::stable_sort(found, std::greater<>{}, [](const auto& f) { return f.first; });
     std::vector<GuideTarget> targets;

@@ -6,10 +6,14 @@
 
 namespace nacre {
 
-/// The `most` strongest area lights as seen from the centre of `object`: parallelograms as they
-/// are, spheres as they are, everything else by its bounding sphere. Lights that are points have no
-/// chance of being met behind a refracting boundary, and an environment is found by the walk
-/// itself.
-std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, int most);
+/// The `most` strongest lights as seen from the centre of `object`, whose boundary has the index
+/// `eta` and spreads light that leaves by `spread` (0: smooth): parallelograms as they are, spheres
+/// as they are, every other area by its bounding sphere; of an environment what stands out of its
+/// mean; lights that are points only behind a rough boundary, which lets them be drawn.
+std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, float eta,
+                                            float spread, int most);
+
+/// Luminance of what a light that is a point sends to `at`, on a surface that faces it.
+float irradiance_of(const Light& point, const Point3f& at);
 
 }  // namespace nacre

@@ -34,7 +34,10 @@ struct VolumePath::WalkSurroundings {
         if (cell.guide < 0) return;
         const ExitGuide::Proposal proposal = info.guide.at(w.p, cell.guide);
         if (!(random.next() < proposal.probability())) return;
-        path.guided_exit(proposal, w, lanes, random);
+        if (info.guide.rough())
+            path.guided_connection(proposal, w, lanes, random);
+        else
+            path.guided_exit(proposal, w, lanes, random);
     }
 
     void connect_through_boundary(const Walker& w, float clearance) {
@@ -206,6 +209,7 @@ bool VolumePath::at_surface() {
     const Vec3f wo = at.shading.to_local(-ray_.d);
     BsdfScratch scratch;
     const Bsdf& bsdf = material.at(at, wavelengths_, scratch);
+    guided_ = guided_arrival(at, wo);
     if ((material.flags() & has_smooth) && within_depth(1)) {
         connect_to_light(&at, &bsdf, wo);
         if (!tracer_.beams_.empty() && within_depth(2))
@@ -246,7 +250,7 @@ bool VolumePath::follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& w
         eta_ *= sample.eta;
         vertex_ = at.p;
         vertex_pdf_ = sample.pdf;
-        other_density_ = density_;
+        other_density_ = density_ + guided_;
         other_strategy_ = sample.delta ? Strategy::none : Strategy::light_sampling;
         // From outside as the interpolated normal sees it, no proposal would have come.
         if (sample.delta && last_collision_.valid && wo.z < 0.f && sample.wi.z > 0.f)

@@ -49,6 +49,12 @@ class VolumePath {
     struct WalkSurroundings;
     void guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
                      const MediumLanes& lanes, Random& random);
+    // The same below a rough boundary: proposes a direction, and draws a light where it arrives.
+    void guided_connection(const ExitGuide::Proposal& proposal, const Walker& walker,
+                           const MediumLanes& lanes, Random& random);
+    // With what density a proposal at the last collision would have led to the rough boundary
+    // `at`, to which the walk came by itself.
+    Spectral guided_arrival(const SurfacePoint& at, const Vec3f& wo) const;
     // Called when the path leaves through the boundary by itself: notes with what density a
     // proposal would have done so.
     void expect_guided_exit(float transmittance);
@@ -109,6 +115,9 @@ class VolumePath {
     Spectral other_density_{0.f};
     Point3f vertex_;  // where the present direction was chosen
     float vertex_pdf_ = 0.f;
+
+    // Density of guided connections to lights at the present surface (guided_arrival).
+    Spectral guided_{0.f};
 
     // The last collision of a walk that reached a surface without another event, for the density of
     // a guided exit.

@@ -52,8 +52,10 @@ void VolumePath::connect_to_light(const SurfacePoint* at, const Bsdf* bsdf, cons
     const Connection c = connection(shadow, medium, sampler_.random());
     if (!(max_lane(c.kept) > 0.f)) return;
     const float light_pdf = light.pdf * choice.probability;
-    const float density = mean_of(
+    float density = mean_of(
         density_ * (Spectral(light_pdf) + c.density * Spectral(light.delta ? 0.f : own_pdf)));
+    // At a rough boundary the same light might have been drawn after a guided arrival.
+    if (at) density += mean_of(guided_) * light_pdf;
     if (density > 0.f)
         result_ += throughput_ * density_ * f * c.kept * light.radiance * Spectral(1.f / density);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nacre/render/boundary_samples.h"
 #include "nacre/render/shadow_walk.h"
 #include "nacre/render/volume_path.h"
 
@@ -23,6 +24,21 @@ bool overlap(const Box3f& a, const Box3f& b) {
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
+// The tangent of the angle within which half of the light stays that leaves through a rough
+// boundary straight from below.
+float spread_of(const Material& boundary) {
+    std::vector<float> tangents;
+    for_boundary_samples(
+        boundary, 1024, 0, [](Vec2f) { return Vec3f(0.f, 0.f, -1.f); },
+        [&](const Vec3f& wi, double, bool back) {
+            if (!back) tangents.push_back(std::hypot(wi.x, wi.y) / wi.z);
+        });
+    if (tangents.empty()) return 0.f;
+    const auto middle = tangents.begin() + std::ptrdiff_t(tangents.size() / 2);
+    std::ranges::nth_element(tangents, middle);
+    return std::max(*middle, 1e-3f);
+}
+
 }  // namespace
 
 VolumePathTracer::VolumePathTracer(const Scene& scene, const Work& work)
@@ -40,8 +56,8 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
     if (!medium.homogeneous()) info.majorants = MajorantGrid(medium);
     std::vector<std::uint32_t> boundary;
     Box3f bounds;
-    bool refracts_everywhere = true, smooth = true;
-    float eta = 0.f;
+    bool refracts_everywhere = true, even = true;
+    float eta = 0.f, spread = 0.f;
     for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) {
         const ShapeBinding& shape = scene_.shapes[i];
         // A medium on the outside of a shape, or around the camera, has no bounds that could be
@@ -51,9 +67,14 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
         boundary.push_back(i);
         bounds.extend(scene_.rays.bounds(i));
         refracts_everywhere &= !(shape.material->flags() & has_null);
-        const float this_eta = shape.material->smooth_boundary_eta();
-        smooth &= this_eta > 1.f && !shape.exterior && (eta == 0.f || this_eta == eta);
+        // All smooth or all rough, of one index.
+        const bool rough = shape.material->rough_boundary_eta() > 1.f;
+        const float this_eta =
+            rough ? shape.material->rough_boundary_eta() : shape.material->smooth_boundary_eta();
+        even &= this_eta > 1.f && !shape.exterior &&
+                (eta == 0.f || (this_eta == eta && rough == (spread > 0.f)));
         eta = this_eta;
+        if (rough) spread = std::max(spread, spread_of(*shape.material));
     }
     if (!boundary.empty() && !chains_.empty()) {
         // Light that is reflected inside has crossed the matter: what is left of it by then.
@@ -70,14 +91,14 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
             return !light->bounds().empty() && overlap(light->bounds(), bounds);
         });
     // Exits are guided from the grid's cells, whether or not its distances save rays.
-    const bool guided = scene_.integrator.guided_exits && smooth && !info.connect;
+    const bool guided = scene_.integrator.guided_exits && even && !info.connect;
     if (!medium.homogeneous() || !(scene_.integrator.distance_grid || guided)) return;
     const Vec3f sigma_t = medium.sigma_t->rgb();
     const float thickest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * medium.scale;
     if (!(thickest > 0.f)) return;
     info.grid =
         DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells, work);
-    if (guided) info.guide = ExitGuide(scene_, medium, boundary, eta, info.grid, work);
+    if (guided) info.guide = ExitGuide(scene_, medium, boundary, eta, spread, info.grid, work);
     if (!scene_.integrator.distance_grid) info.grid.forget_distances();
 }
 
