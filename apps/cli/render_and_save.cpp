@@ -26,7 +26,7 @@ std::pair<std::uint32_t, std::uint32_t> sample_range(const Film& film) {
 }
 
 void print_json(const RenderResult& r, const Scene& scene, const std::vector<std::string>& warnings,
-                const std::filesystem::path& file) {
+                const std::filesystem::path& file, const std::optional<MeshPose>& pose) {
     Vec3d mean;
     for (int y = 0; y < r.film.height(); ++y)
         for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));
@@ -53,6 +53,11 @@ void print_json(const RenderResult& r, const Scene& scene, const std::vector<std
                                 {"warnings", warnings}};
     if (r.noise) json["noise"] = *r.noise;
     for (const Statistic& s : r.statistics) json["statistics"][s.name] = s.value;
+    if (pose)
+        json["pose"] = {{"up", name_of(pose->up)},
+                        {"up_by_shape", pose->up_by_shape},
+                        {"front", name_of(pose->front)},
+                        {"front_by_shape", pose->front_by_shape}};
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -136,7 +141,7 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
     if (!options.quiet)
         for (const Statistic& s : result.statistics)
             say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
-    if (options.json) print_json(result, scene, warnings, file);
+    if (options.json) print_json(result, scene, warnings, file, options.pose);
     return stopped ? interrupted : kept ? success : failure;
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/cli/film_keeper.h"
 #include "apps/cli/verb.h"
+#include "nacre/geometry/mesh_pose.h"
 #include "nacre/techniques/techniques.h"
 
 namespace nacre::cli {
@@ -16,6 +17,7 @@ struct SaveOptions {
     float exposure = 0.f;
     bool strict = false, quiet = false, json = false;
     FilmOptions film;
+    std::optional<MeshPose> pose = {};  ///< of a bare mesh in its file, for the summary
 };
 
 /// Returns the exit code: `failure` if the film was to be kept and could not; `interrupted` after Ctrl-C, when what there is was saved as

@@ -101,7 +101,9 @@ void add_gltf(const std::filesystem::path& file, ordered_json& json) {
 }
 
 ordered_json describe_mesh(const std::filesystem::path& file) {
-    const MeshReport r = inspect(*load_mesh(file));
+    const std::shared_ptr<Mesh> mesh = load_mesh(file);
+    const MeshReport r = inspect(*mesh);
+    const MeshPose pose = pose_of_file(file, *mesh);
     ordered_json json{{"file", file.string()},
                       {"kind", "mesh"},
                       {"vertices", r.vertices},
@@ -114,7 +116,9 @@ ordered_json describe_mesh(const std::filesystem::path& file) {
                       {"inconsistent_edges", r.inconsistent_edges},
                       {"degenerate_triangles", r.degenerate_triangles},
                       {"area", r.area},
-                      {"bounds", {point(r.bounds.lower), point(r.bounds.upper)}}};
+                      {"bounds", {point(r.bounds.lower), point(r.bounds.upper)}},
+                      {"up", name_of(pose.up)},
+                      {"front", name_of(pose.front)}};
     if (r.closed()) json["volume"] = r.volume;
     if (const std::string text = warning(r, true); !text.empty()) json["warning"] = text;
     if (has_gltf_extension(file)) add_gltf(file, json);

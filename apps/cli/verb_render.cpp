@@ -5,8 +5,10 @@
 #include "apps/cli/output_file.h"
 #include "apps/cli/render_and_save.h"
 #include "apps/cli/scene_input.h"
+#include "apps/cli/streams.h"
 #include "nacre/image/image.h"
 #include "nacre/math/error.h"
+#include "nacre/scene/stage.h"
 #include "nacre/techniques/techniques.h"
 
 namespace nacre::cli {
@@ -73,7 +75,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     check_image_output(save.output);
 
     std::vector<std::filesystem::path> read;
-    Scene scene = load(o.input, app, &read);
+    Scene scene = load(o.input, app, &read, &save.pose);
     refuse_input_as_output(save.output, read);
     if (o.film.keeps()) refuse_input_as_output(film_path(save.output), read);
     if (!o.crop.empty()) set_crop(scene.film, o.crop);
@@ -99,6 +101,8 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     save.strict = o.strict;
     save.quiet = o.quiet;
     save.json = o.json;
+    if (save.pose && !o.quiet && !(app.count("--up") && app.count("--view")))
+        say("nacre: {}\n", sentence_about(*save.pose));
     return render_and_save(scene, plan(scene, o, app), save, invocation);
 }
 
@@ -136,6 +140,7 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
                  "volpath: do not guide light out of media (same picture, noisier)");
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     app.add_flag("--json", o->json, "a summary for programs on standard output");
+    app.footer("\nsettings of --camera, --env and --light:\n" + stage_help() + app.get_footer());
     return [o, &app, invocation] { return run(*o, app, invocation); };
 }
 

@@ -37,6 +37,16 @@ TEST_F(LoadScene, DefaultsAreMitsubas) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST_F(LoadScene, SaysThatAllLightsAreBlack) {
+    const std::string
+        rest = R"(<sensor type="perspective"/><shape type="sphere"/>)",
+        sky = R"(<emitter type="constant"><float name="radiance" value="0"/></emitter>)",
+        lamp = R"(<emitter type="point"><float name="intensity" value="0"/></emitter>)";
+    EXPECT_EQ(load(sky + lamp + rest).warnings,
+              std::vector<std::string>{"the scene's lights are black, and so is the picture"});
+    EXPECT_TRUE(load(sky + R"(<emitter type="point"/>)" + rest).warnings.empty());
+}
+
 TEST_F(LoadScene, WithoutSensorTheSceneIsFramed) {
     const Scene scene = load(R"(<shape type="sphere"><point name="center" value="5, 6, 7"/>
         <float name="radius" value="3"/></shape>)");

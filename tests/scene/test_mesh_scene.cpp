@@ -159,12 +159,63 @@ TEST(MeshScene, WarnsAboutOpenMeshes) {
     EXPECT_TRUE(scene.warnings[0].starts_with("'ball': ")) << scene.warnings[0];
 }
 
+TEST(MeshScene, WideThingsAreNoLandscapes) {
+    const auto size = [](const Vec3f& half, std::optional<double> height = {}) {
+        auto mesh = std::make_shared<Mesh>(make_cube());
+        mesh->name = "box";
+        for (Point3f& p : mesh->positions) p = {p.x * half.x, p.y * half.y, p.z * half.z};
+        const Scene scene = make_mesh_scene(mesh, {.height_mm = height});
+        return scene.rays.bounds(shape_named(scene, "box")).diagonal();
+    };
+    EXPECT_NEAR(size({2.4f, 1, 1}).y, 100, 1e-3f);
+    EXPECT_NEAR(size({5, 1, 2}).x, 250, 1e-3f);
+    EXPECT_NEAR(size({5, 1, 2}).y, 50, 1e-3f);
+    EXPECT_NEAR(size({1, 0.1f, 10}).z, 250, 1e-3f);
+    EXPECT_NEAR(size({5, 1, 2}, 100).x, 500, 1e-3f);
+    EXPECT_NEAR(size({1e-5f, 2e-5f, 1e-5f}).x, 50, 1e-3f);
+    EXPECT_NEAR(size({1e5f, 2e5f, 1e5f}).x, 50, 1e-3f);
+}
+
 class MeshSceneFiles : public SceneFiles {};
+
+TEST_F(MeshSceneFiles, StandsAsTheFormatHasItOrTheShapeTells) {
+    // A cube says nothing; a pyramid stands on its base, which is at +x.
+    const std::string cube =
+        "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\n"
+        "v -1 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\n"
+        "f 1 5 7 3\nf 2 4 8 6\n";
+    const std::string pyramid =
+        "v 1 -1 -1\nv 1 1 -1\nv 1 1 1\nv 1 -1 1\nv -2 0 0\nf 1 2 3 4\n"
+        "f 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n";
+    const auto pose_of = [&](const std::filesystem::path& file, std::optional<SignedAxis> up = {}) {
+        MeshPose pose;
+        load_mesh_scene(file, {.up = up, .pose = &pose});
+        return name_of(pose.up) + name_of(pose.front);
+    };
+    EXPECT_EQ(pose_of(write("cube.obj", cube)), "+y+z");
+    EXPECT_EQ(pose_of(folder_ / "cube.obj", SignedAxis{2, -1}), "-z+y");
+    EXPECT_EQ(pose_of(write("pyramid.obj", pyramid)), "-x+z");
+    const std::string facet =
+        "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 1\n"
+        "endloop\nendfacet\nendsolid a\n";
+    EXPECT_EQ(pose_of(write("a.stl", facet)), "+z-y");
+    EXPECT_EQ(pose_of(write("b.STL", facet)), "+z-y");
+}
+
+TEST_F(MeshSceneFiles, TurnsPositionsAndNormals) {
+    const auto file = write("cone.obj",
+                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 3\nvn 0 0 1\nf 1//1 3//1 2//1\n"
+                            "f 1//1 2//1 4//1\nf 2//1 3//1 4//1\nf 3//1 1//1 4//1\n");
+    const Scene scene = load_mesh_scene(file, {.height_mm = 3, .up = SignedAxis{2, 1}});
+    const std::uint32_t shape = shape_named(scene, "cone.obj");
+    EXPECT_NEAR(length(scene.rays.bounds(shape).diagonal() - Vec3f(1, 3, 1)), 0, 1e-5f);
+    for (const Vec3f& n : scene.rays.mesh(shape)->normals) EXPECT_EQ(n, Vec3f(0, 1, 0));
+}
 
 TEST_F(MeshSceneFiles, RefusesWrongInput) {
     const auto file = write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 1\n3 0 1 2\n");
     EXPECT_EQ(error_of([&] { load_mesh_scene(file); }),
-              "flat.off: has no height along y, which is up; turn it upright");
+              "flat.off: has no height along +y, which is up; turn it upright (--up)");
     EXPECT_EQ(error_of([&] { load_mesh_scene(file, {.height_mm = -1}); }),
               "the height of the object must be positive; got -1 mm");
     // The name of the medium is checked before the file is opened.

@@ -43,7 +43,13 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
                (volpath ? ", --integrator volpath" : "") +
                (technique ? ", a rough boundary or a technique (--technique)" : "");
     };
-    const std::string sky = xml::constant_light();
+    const auto mirrored = [](const std::string& what) {
+        return "light of point, spot and directional lights that the mirror of " + what +
+               " throws onto what is around it is missing: no path meets them there; use small "
+               "area lights";
+    };
+    const std::string sky = xml::constant_light(), mirror = xml::bsdf("conductor"),
+                      wall = named("wall", xml::bsdf("diffuse"));
     const std::string tinted =
         xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + matter;
     const std::string fog = xml::bsdf("null") + matter, jade = xml::dielectric(1.5) + matter,
@@ -100,6 +106,20 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
         {"a rough boundary", integrator("volpath") + sun + named("a", rough + matter), {}},
         {"thin glass", integrator("path") + sun + named("a", xml::bsdf("thindielectric")), {}},
         {"a technique in the sun", integrator("path") + sun + named("a", marble), {}},
+        {"a mirror", integrator("path") + sun + named("a", mirror) + wall, {mirrored("'a'")}},
+        {"mirrors in fog",
+         integrator("volpath") + spot + named("a", mirror) + named("b", mirror) + named("c", fog),
+         {mirrored("'a' and 'b'")}},
+        {"glass and mirror",
+         integrator("path") + sun + named("a", glass) + named("b", mirror) + wall,
+         {unmet("'a'", false, true), mirrored("'b'")}},
+        {"a mirror with nothing around", integrator("path") + sun + named("a", mirror), {}},
+        {"a mirror under the sky", integrator("path") + sky + named("a", mirror) + wall, {}},
+        {"a rough mirror",
+         integrator("path") + sun + named("a", xml::bsdf("roughconductor")) + wall,
+         {}},
+        {"varnish", integrator("path") + sun + named("a", xml::bsdf("plastic")) + wall, {}},
+        {"a mirror by recursion", integrator("ray") + sun + named("a", mirror) + wall, {}},
         {"a lamp inside", integrator("volpath") + lamp_inside + named("a", tinted), {}},
     };
     for (const auto& c : cases) {

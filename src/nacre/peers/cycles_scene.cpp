@@ -189,6 +189,7 @@ json cycles_scene(const PeerRequest& request, const std::string& output, bool ra
         substitutions.add("wavelengths are the three bands of linear RGB");
     if (scene.camera_medium) substitutions.add("the medium around the camera is left out");
     if (scene.integrator.hide_emitters) substitutions.add("'hide_emitters' has no effect");
+    if (scene.background) substitutions.add("the background is what lights the scene");
     const PeerView view = view_of(*scene.camera);
     return {{"film", film(scene, output, view.mirrored, substitutions)},
             {"camera", camera(view)},

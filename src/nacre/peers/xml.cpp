@@ -40,6 +40,7 @@ class Writer {
         for (const SceneNode::Child* child : scene_.root->children_of("emitter"))
             copy(*child->node, root);
         write_environment(root);
+        if (scene_.background) substitutions_.add("the background is what lights the scene");
         for (shape_ = 0; shape_ < scene_.shapes.size(); ++shape_) write_shape(root);
         std::ostringstream text;
         document.save(text, "    ", pugi::format_default | pugi::format_no_declaration);

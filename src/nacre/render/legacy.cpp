@@ -159,7 +159,7 @@ Spectral LegacyShading::radiance(const Ray& camera_ray, Sampler& sampler,
     for (int depth = 0; depth < most; ++depth) {
         ++counts.rays;
         const auto hit = scene_.rays.intersect(ray);
-        const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.environment;
+        const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.beyond(depth);
         SurfacePoint at;
         if (hit) at = scene_.rays.surface_point(ray, *hit);
         if (hit && inside)

@@ -24,7 +24,7 @@ void SurfacePath::follow() {
     while (within_depth(0)) {
         ++counts_.rays;
         const auto hit = scene_.rays.intersect(ray_);
-        const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.environment;
+        const Light* light = hit ? scene_.shapes[hit->shape].light : scene_.beyond(depth_);
         SurfacePoint at;
         if (hit) at = scene_.rays.surface_point(ray_, *hit);
         if (light && !(depth_ == 0 && scene_.integrator.hide_emitters))

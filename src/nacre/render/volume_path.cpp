@@ -74,8 +74,9 @@ Spectral VolumePath::trace() {
         const Event event = travel();
         if (event == Event::ended) break;
         if (event == Event::escaped) {
-            if (scene_.environment && !(depth_ == 0 && scene_.integrator.hide_emitters))
-                add_emission(*scene_.environment, nullptr);
+            const Light* beyond = scene_.beyond(depth_);
+            if (beyond && !(depth_ == 0 && scene_.integrator.hide_emitters))
+                add_emission(*beyond, nullptr);
             break;
         }
         if (!(event == Event::surface ? at_surface() : at_collision())) break;

@@ -125,6 +125,12 @@ void add_film(Hash& hash, const FilmSettings& film) {
         hash.add(std::uint64_t(v));
 }
 
+void add_background(Hash& hash, const Scene& scene) {
+    if (!scene.background) return;
+    for (int i = 0; i < 3; ++i)
+        hash.add(scene.background->radiance(nullptr, {0, 0, 1}, Wavelengths::rgb_bands())[i]);
+}
+
 }  // namespace
 
 std::uint64_t hash_bytes(std::string_view bytes) {
@@ -143,6 +149,7 @@ std::string content_key(const Scene& scene) {
     hash.add(std::uint64_t(scene.mode));
     hash.add(std::uint64_t(std::int64_t(scene.integrator.max_depth)));
     hash.add(std::uint64_t(scene.integrator.hide_emitters));
+    add_background(hash, scene);
     return text(hash);
 }
 
@@ -151,6 +158,7 @@ std::map<std::string, std::string> content_keys_by_part(const Scene& scene) {
     std::map<std::string, Hash> parts;
     add_values(parts["scene"], root, scene.search_path);
     parts["scene"].add(scene.mm_per_unit);
+    add_background(parts["scene"], scene);
     for (const SceneNode::Child& child : root.children)
         add_node(parts[child.node->tag], *child.node, scene.search_path, {"sampler", "film"});
     add_meshes(parts["mesh"], scene);

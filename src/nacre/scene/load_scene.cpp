@@ -175,6 +175,9 @@ Scene build_scene(const SceneNodePtr& given, BuildContext& context, std::optiona
     if (scene.lights.empty())
         context.warnings.push_back(
             fmt::format("{}: the scene has no light: the picture is black", root.location.str()));
+    else if (!scene.integrator.legacy &&  // which has ambient light
+             std::ranges::none_of(scene.lights, [](const LightPtr& l) { return l->power() > 0; }))
+        context.warnings.emplace_back("the scene's lights are black, and so is the picture");
     read_sensor(root, scene, context);
     root.check_all_used();
 

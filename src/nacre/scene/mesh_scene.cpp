@@ -1,9 +1,8 @@
-// A bare mesh as a scene. Lengths are millimetres, y is up, the object stands on y = 0 and is
-// looked at from +z.
+// A bare mesh as a scene: upright, in millimetres, in a medium. What stands around it is in stage.h.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
@@ -13,57 +12,12 @@
 #include "nacre/scene/gltf/shapes.h"
 #include "nacre/scene/load.h"
 #include "nacre/scene/scene_builder.h"
+#include "nacre/scene/stage_nodes.h"
 #include "nacre/scene/xml/write_nodes.h"
 #include "nacre/text/names.h"
 
 namespace nacre {
 namespace {
-
-/// The object's bounding sphere, about which everything is arranged.
-struct Stage {
-    Vec3d center;
-    double radius;
-};
-
-/// 4 radii away; `white` is the radiance that it alone gives to a white surface turned towards it.
-NodePtr lamp(const Stage& stage, const Vec3d& from, const Vec3f& color, double white) {
-    const double distance = 4 * stage.radius;
-    return ball_light(stage.center + from * distance, 0.9 * stage.radius, distance, color, white);
-}
-
-NodePtr floor_under(const Stage& stage, double height) {
-    auto grey = make_node("bsdf", "diffuse");
-    set_rgb(grey, "reflectance", {0.4f, 0.4f, 0.4f});
-    auto shape = make_node("shape", "rectangle");
-    // A thousandth of the height below the object, so that the two surfaces never coincide; wide
-    // enough for its edge to be far behind.
-    const double half = 60 * stage.radius;
-    set(shape, "to_world", "transform",
-        Transform::translate({0, -1e-3 * height, 0}) * Transform::rotate({1, 0, 0}, -90) *
-            Transform::scale({half, half, 1}));
-    add(shape, grey);
-    return shape;
-}
-
-NodePtr camera_for(const Stage& stage, const MeshSceneOptions& options) {
-    constexpr double fov = 26;  // about that of an 80 mm lens on 35 mm film: little distortion
-    const double distance = 1.08 * stage.radius / std::sin(fov / 2 * std::numbers::pi / 180);
-    auto camera = make_node("sensor", "perspective");
-    set(camera, "fov", "float", fov);
-    set(camera, "fov_axis", "string", std::string("smaller"));
-    set(camera, "near_clip", "float", 0.01 * distance);
-    set(camera, "far_clip", "float", 1000 * distance);
-    set(camera, "to_world", "transform",
-        Transform::look_at(stage.center + direction(28, 14) * distance, stage.center, {0, 1, 0}));
-    auto film = make_node("film", "hdrfilm");
-    set(film, "width", "integer", std::int64_t{options.width});
-    set(film, "height", "integer", std::int64_t{options.height});
-    add(camera, film);
-    auto sampler = make_node("sampler", "sobol");
-    set(sampler, "sample_count", "integer", std::int64_t{64});
-    add(camera, sampler);
-    return camera;
-}
 
 std::string_view material_of(const MeshSceneOptions& options) {
     return options.material ? std::string_view(*options.material) : "marble";
@@ -100,20 +54,35 @@ NodePtr translucent_shape(const Filling& filling) {
     return shape;
 }
 
-/// Where the object comes to stand: in millimetres, centred above the origin, on y = 0.
+/// A size that is not given: this tall, unless something much wider would become a landscape.
+constexpr double usual_height = 100, usual_width = 250;
+
+/// Where the object comes to stand: upright, in millimetres, centred above the origin, on y = 0.
 struct Placement {
+    MeshPose pose;
     Point3f foot;
     float scale;
+    double height;
 
-    Placement(const Box3f& box, const std::string& name, double height_mm) {
-        if (box.empty() || !(box.diagonal().y > 0.f))
-            throw InputError(name + ": has no height along y, which is up; turn it upright");
-        scale = static_cast<float>(height_mm) / box.diagonal().y;
+    Placement(const MeshPose& pose_, const Box3f& box, const std::string& name,
+              const MeshSceneOptions& options)
+        : pose(pose_), height(options.height_mm.value_or(usual_height)) {
+        if (options.pose) *options.pose = pose;
+        const Vec3f size = box.diagonal();
+        if (box.empty() || !(size.y > 0.f))
+            throw InputError(fmt::format("{}: has no height along {}, which is up; turn it upright "
+                                         "(--up)",
+                                         name, name_of(pose.up)));
+        const double widest = std::max(size.x, size.z);
+        if (!options.height_mm && widest * usual_height > usual_width * size.y)
+            height = usual_width * (size.y / widest);
+        scale = static_cast<float>(height) / size.y;
         foot = {box.center().x, box.lower.y, box.center().z};
     }
 
     /// The mesh there, its outside outside.
     std::shared_ptr<Mesh> place(Mesh mesh) const {
+        turn(pose, mesh);
         for (Point3f& p : mesh.positions) p = (p - foot) * scale;
         if (inspect(mesh).inside_out()) {
             for (Mesh::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -121,40 +90,45 @@ struct Placement {
         }
         return std::make_shared<Mesh>(std::move(mesh));
     }
+
+    static void turn(const MeshPose& pose, Mesh& mesh) {
+        if (pose.is_identity()) return;
+        for (Point3f& p : mesh.positions) p = pose.turn(p);
+        for (Vec3f& n : mesh.normals) n = pose.turn(n);
+    }
+    static Box3f turned(const MeshPose& pose, const Box3f& box) {
+        Box3f r;
+        if (box.empty()) return r;
+        r.extend(pose.turn(box.lower));
+        r.extend(pose.turn(box.upper));
+        return r;
+    }
 };
 
-double height_of(const MeshSceneOptions& options) {
-    const double height = options.height_mm.value_or(100.0);
+void check_height(const MeshSceneOptions& options) {
+    const double height = options.height_mm.value_or(usual_height);
     if (!(height > 0.0) || !std::isfinite(height))
         throw InputError(
             fmt::format("the height of the object must be positive; got {} mm", height));
-    return height;
 }
 
 /// The placed shapes, whose meshes are in the context, with all that is around them.
-Scene arrange(const std::vector<NodePtr>& shapes, BuildContext& context,
+Scene arrange(const std::vector<NodePtr>& shapes, double height, BuildContext& context,
               const MeshSceneOptions& options) {
     Box3f box;
     for (const NodePtr& shape : shapes) box.extend(context.meshes.at(shape.get())->bounds());
-    const Stage stage{Vec3d(box.center()), 0.5 * length(Vec3d(box.diagonal()))};
     auto root = make_node("scene", "");
     auto integrator = make_node("integrator", "volpath");
     add(root, integrator);
-    add(root, camera_for(stage, options));
-    auto sky = make_node("emitter", "constant");
-    set_rgb(sky, "radiance", {0.13f, 0.14f, 0.16f});
-    add(root, sky);
-    // With the sky and the floor a white object in the key light comes to just below 1. The light
-    // from behind is stronger, because what passes through the object is little; it stands high
-    // enough to stay out of the picture.
-    add(root, lamp(stage, direction(-25, 40), {1.12f, 0.98f, 0.78f}, 0.6));
-    add(root, lamp(stage, direction(158, 40), {1.04f, 1.f, 0.9f}, 1.6));
-    add(root, floor_under(stage, height_of(options)));
+    set_stage(root, {box, height, options.width, options.height}, options.stage);
     for (const NodePtr& shape : shapes) {
         if (options.crease_angle) set(shape, "crease_angle", "float", *options.crease_angle);
         add(root, shape);
     }
-    return build_scene(root, context, options.mode);
+    if (options.stage.environment) context.search_path.emplace_back(".");
+    Scene scene = build_scene(root, context, options.mode);
+    scene.background = stage_background(options.stage, context);
+    return scene;
 }
 
 /// A glTF in its own materials.
@@ -162,12 +136,27 @@ Scene make_gltf_scene(const GltfObject& object, const std::string& name,
                       const MeshSceneOptions& options) {
     Box3f box;
     for (const GltfPart& part : object.parts) box.extend(part.mesh->bounds());
-    const Placement placement(box, name, height_of(options));
+    MeshPose pose;
+    pose.up = options.up.value_or(pose.up);
+    pose.front = usual_front(pose.up);
+    const Placement placement(pose, Placement::turned(pose, box), name, options);
     GltfObject placed = object;
     for (GltfPart& part : placed.parts) part.mesh = placement.place(*part.mesh);
     BuildContext context;
     const auto shapes = make_gltf_shapes(placed, name, 1. / placement.scale, context);
-    return arrange(shapes, context, options);
+    return arrange(shapes, placement.height, context, options);
+}
+
+/// A mesh in one material.
+Scene make_scene(const Mesh& mesh, const MeshPose& pose, const MeshSceneOptions& options) {
+    const Filling inside = filling(material_of(options));
+    const std::string name = mesh.name.empty() ? "mesh" : mesh.name;
+    const Placement placement(pose, Placement::turned(pose, mesh.bounds()), name, options);
+    auto shape = translucent_shape(inside);
+    if (!mesh.name.empty()) shape->id = mesh.name;
+    BuildContext context;
+    context.meshes[shape.get()] = placement.place(mesh);
+    return arrange({shape}, placement.height, context, options);
 }
 
 }  // namespace
@@ -180,26 +169,32 @@ const MeasuredMedium* translucent_material(std::string_view name) {
     throw InputError(unknown_name(measured_media().what(), name, names));
 }
 
+MeshPose pose_of_file(const std::filesystem::path& file, const Mesh& mesh,
+                      std::optional<SignedAxis> given_up) {
+    if (has_gltf_extension(file)) {  // which says it
+        const SignedAxis up = given_up.value_or(SignedAxis{1, 1});
+        return {.up = up, .front = usual_front(up)};
+    }
+    // Printers and CAD, whose format it is, build upwards along z.
+    const bool is_stl = plain_name(file.extension().string()) == ".stl";
+    return guess_pose(mesh, is_stl ? SignedAxis{2, 1} : SignedAxis{1, 1}, given_up);
+}
+
 Scene make_mesh_scene(std::shared_ptr<Mesh> mesh, const MeshSceneOptions& options) {
-    const Filling inside = filling(material_of(options));
-    const std::string name = mesh->name.empty() ? "mesh" : mesh->name;
-    const Placement placement(mesh->bounds(), name, height_of(options));
-    auto shape = translucent_shape(inside);
-    if (!mesh->name.empty()) shape->id = mesh->name;
-    BuildContext context;
-    context.meshes[shape.get()] = placement.place(*mesh);
-    return arrange({shape}, context, options);
+    check_height(options);
+    return make_scene(*mesh, guess_pose(*mesh, {1, 1}, options.up), options);
 }
 
 Scene load_mesh_scene(const std::filesystem::path& file, const MeshSceneOptions& options) {
     filling(material_of(options));  // a wrong name is told before a large mesh is read
+    check_height(options);
     if (has_gltf_extension(file) && !options.material) {
         const GltfObject object = load_gltf(file);
         if (object.has_materials()) return make_gltf_scene(object, file.string(), options);
     }
     std::shared_ptr<Mesh> mesh = load_mesh(file);
     if (mesh->name.empty()) mesh->name = file.filename().string();
-    return make_mesh_scene(std::move(mesh), options);
+    return make_scene(*mesh, pose_of_file(file, *mesh, options.up), options);
 }
 
 }  // namespace nacre

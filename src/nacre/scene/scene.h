@@ -78,6 +78,9 @@ struct Scene {
     std::vector<LightPtr> lights;
     const Light* environment =
         nullptr;  ///< what rays that leave the scene meet; also among `lights`
+    /// What the viewer sees instead of the environment where nothing is, and what lights nothing;
+    /// null: the environment.
+    LightPtr background;
     std::vector<MediumPtr> media;
     CameraPtr camera;
     const Medium* camera_medium = nullptr;
@@ -91,6 +94,11 @@ struct Scene {
     /// order, are `shapes`. Files that it names are in the first of these folders that has them.
     std::shared_ptr<const SceneNode> root;
     std::vector<std::filesystem::path> search_path;
+
+    /// What a ray meets that leaves the scene after so many bounces; null: nothing.
+    const Light* beyond(int bounces) const {
+        return bounces == 0 && background ? background.get() : environment;
+    }
 };
 
 }  // namespace nacre

@@ -113,11 +113,33 @@ std::string unmet_lights(const Scene& scene, const RenderPlan* plan) {
         translucent ? ", a rough boundary or a technique (--technique)" : "");
 }
 
+/// Mirrors throw such light onto others, too.
+std::string unmet_reflections(const Scene& scene) {
+    if (std::ranges::none_of(scene.lights, &Light::is_delta)) return "";
+    const auto has = [](const ShapeBinding& s, unsigned flag) {
+        return (s.material->flags() & flag) != 0;
+    };
+    const std::vector<std::uint32_t> mirrors =
+        shapes_where(scene, [&](std::uint32_t, const ShapeBinding& s) {
+            return has(s, has_delta) && !has(s, has_smooth | transmits | has_null);
+        });
+    const bool any_sees_it = std::ranges::any_of(scene.shapes, [&](const ShapeBinding& s) {
+        return has(s, has_smooth) || s.interior || s.exterior;
+    });
+    if (mirrors.empty() || !(any_sees_it || scene.camera_medium)) return "";
+    return fmt::format(
+        "light of point, spot and directional lights that the mirror of {} throws onto what is "
+        "around it is missing: no path meets them there; use small area lights",
+        names_of(scene, mirrors));
+}
+
 }  // namespace
 
 std::vector<std::string> missing_in_simulation(const Scene& scene) {
-    const std::string text = unmet_lights(scene, nullptr);
-    return text.empty() ? std::vector<std::string>{} : std::vector{text};
+    std::vector<std::string> result;
+    for (std::string text : {unmet_lights(scene, nullptr), unmet_reflections(scene)})
+        if (!text.empty()) result.push_back(std::move(text));
+    return result;
 }
 
 std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& plan) {
@@ -127,8 +149,8 @@ std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& pla
         result.push_back(std::move(text));
     // Recursive ray tracing and what came before it never had caustics.
     if (plan.integrator == "path")
-        if (std::string text = unmet_lights(scene, &plan); !text.empty())
-            result.push_back(std::move(text));
+        for (std::string text : {unmet_lights(scene, &plan), unmet_reflections(scene)})
+            if (!text.empty()) result.push_back(std::move(text));
     return result;
 }
 
