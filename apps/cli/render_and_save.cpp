@@ -26,7 +26,8 @@ std::pair<std::uint32_t, std::uint32_t> sample_range(const Film& film) {
 }
 
 void print_json(const RenderResult& r, const Scene& scene, const std::vector<std::string>& warnings,
-                const std::filesystem::path& file, const std::optional<MeshPose>& pose) {
+                const std::filesystem::path& file, const Finish& finish,
+                const std::optional<MeshPose>& pose) {
     Vec3d mean;
     for (int y = 0; y < r.film.height(); ++y)
         for (int x = 0; x < r.film.width(); ++x) mean += Vec3d(r.film.mean(x, y));
@@ -34,6 +35,7 @@ void print_json(const RenderResult& r, const Scene& scene, const std::vector<std
     const auto [least, most] = sample_range(r.film);
     nlohmann::ordered_json json{{"output", file.string()},
                                 {"complete", r.complete},
+                                {"denoised", finish.denoised},
                                 {"width", r.film.width()},
                                 {"height", r.film.height()},
                                 {"samples", r.sampler.samples},
@@ -92,6 +94,7 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
         o.threads = options.threads;
         o.timeout_s = options.timeout_s;
         o.stop = &stop;
+        o.halves = options.finish.denoise;
         o.progress = [&](RenderProgress p) {
             if (p.phase.empty()) p.seconds += keeper.seconds_before();
             bar.show(p);
@@ -120,8 +123,13 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
     if (open && !result.complete) result.sampler.samples = int(most);
     const std::filesystem::path file =
         stopped ? unused_name(partial_path(options.output)) : options.output;
-    save_render(result, scene, file, {invocation.command_line, version, options.scene_file},
-                options.exposure);
+    Image picture =
+        render_image(result, scene, {invocation.command_line, version, options.scene_file});
+    // Whoever interrupts does not want to wait for more.
+    const Finish finish =
+        stopped ? Finish{}
+                : finish_picture(picture, result, scene, options.finish, options.threads, stop);
+    write_image(picture, file, options.exposure);
     if (!result.complete)
         say("nacre: {} with {} to {} {}samples a pixel\n", stopped ? "interrupted" : "timeout",
             least, most, open ? "" : fmt::format("of {} ", scene.sampler.samples));
@@ -133,15 +141,15 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
                 : "",
             least);
     if (!options.quiet)
-        say("nacre: wrote {} ({} x {}, {} wall, {} CPU, {:.1f} M rays)\n", file.string(),
-            result.film.width(), result.film.height(),
-            format_seconds(result.seconds + result.precompute_seconds),
-            format_seconds(result.cpu_seconds + result.precompute_cpu_seconds),
+        say("nacre: wrote {} ({}{} x {}, {} wall, {} CPU, {:.1f} M rays)\n", file.string(),
+            finish.denoised ? "denoised, " : "", result.film.width(), result.film.height(),
+            format_seconds(result.seconds + result.precompute_seconds + finish.seconds),
+            format_seconds(result.cpu_seconds + result.precompute_cpu_seconds + finish.cpu_seconds),
             static_cast<double>(result.counts.rays) / 1e6);
     if (!options.quiet)
         for (const Statistic& s : result.statistics)
             say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);
-    if (options.json) print_json(result, scene, warnings, file, options.pose);
+    if (options.json) print_json(result, scene, warnings, file, finish, options.pose);
     return stopped ? interrupted : kept ? success : failure;
 }
 

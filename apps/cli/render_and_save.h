@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/cli/film_keeper.h"
+#include "apps/cli/finish_picture.h"
 #include "apps/cli/verb.h"
 #include "nacre/geometry/mesh_pose.h"
 #include "nacre/techniques/techniques.h"
@@ -18,6 +19,7 @@ struct SaveOptions {
     bool strict = false, quiet = false, json = false;
     FilmOptions film;
     std::optional<MeshPose> pose = {};  ///< of a bare mesh in its file, for the summary
+    FinishOptions finish = {};
 };
 
 /// Returns the exit code: `failure` if the film was to be kept and could not; `interrupted` after Ctrl-C, when what there is was saved as

@@ -17,6 +17,7 @@ namespace {
 struct Options {
     SceneInput input;
     FilmOptions film;
+    FinishOptions finish;
     std::string output, crop, integrator, technique, profile;
     std::vector<std::string> set;
     int threads = 0, spp = 0;
@@ -73,6 +74,12 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
                       ? std::filesystem::path(o.input.scene).stem().replace_extension(".exr")
                       : std::filesystem::path(o.output);
     check_image_output(save.output);
+    check_finish(o.finish, save.output);
+    if (o.finish.denoise && o.film.resume)
+        throw InputError(
+            "--denoise compares two halves of the samples of one run, which a kept film does not "
+            "hold; leave out --resume");
+    save.finish = o.finish;
 
     std::vector<std::filesystem::path> read;
     Scene scene = load(o.input, app, &read, &save.pose);
@@ -89,6 +96,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
                 "give the most by --spp, or choose 'independent'");
         if (!o.spp) scene.sampler.samples = most_samples;
     }
+    check_samples(o.finish, scene.sampler.samples);
     if (app.count("--seed")) scene.sampler.seed = o.seed;
     if (!o.integrator.empty()) scene.integrator.type = o.integrator;
     if (o.no_distance_grid) scene.integrator.distance_grid = false;
@@ -132,6 +140,7 @@ Action set_up_render(CLI::App& app, const Invocation& invocation) {
         ->allow_extra_args(false);
     add_number(app, "--exposure", o->exposure, {-100, 100}, "stops, for .png");
     app.add_flag("--variance", o->variance, "also write the variance of one sample (EXR)");
+    add_finish_options(app, o->finish);
     app.add_flag("--strict", o->strict,
                  "fail, and write nothing, if any sample is not finite or negative");
     app.add_flag("--no-distance-grid", o->no_distance_grid,

@@ -2,9 +2,7 @@
 
 #include <sys/resource.h>
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "nacre/render/checkpoints.h"
 #include "nacre/render/noise.h"
 #include "nacre/render/render_job.h"
+#include "nacre/render/threads.h"
 
 namespace nacre {
 namespace {
@@ -150,16 +149,6 @@ Work::Tell told_of(const RenderOptions& options) {
     };
 }
 
-/// Runs `work` with as many threads as asked for.
-RenderResult with_threads(int threads, const std::function<RenderResult()>& work) {
-    if (threads <= 0) return work();
-    // Lets there be more threads than cores.
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    std::size_t(threads));
-    tbb::task_arena arena(threads);
-    return arena.execute(work);
-}
-
 }  // namespace
 
 RenderResult render(const Scene& scene, const Integrator& integrator, const FrameSettings& frame,
@@ -167,6 +156,7 @@ RenderResult render(const Scene& scene, const Integrator& integrator, const Fram
     return with_threads(options.threads, [&] {
         RenderJob job(scene, integrator, frame);
         if (options.begun) job.go_on_from(*options.begun);
+        if (options.halves) job.keep_halves();
         const double cpu = process_cpu_seconds();
         RenderLoop loop(job, options);
         const bool complete = [&] {
@@ -188,6 +178,7 @@ RenderResult render(const Scene& scene, const Integrator& integrator, const Fram
         result.seconds = loop.seconds();
         result.cpu_seconds = process_cpu_seconds() - cpu;
         result.counts = job.counts();
+        result.halves = job.take_halves();
         return result;
     });
 }

@@ -32,6 +32,7 @@ struct RenderOptions {
     /// samples in flight.
     double timeout_s = 0;
     const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler
+    bool halves = false;                      ///< also keep two films of half the samples each
     /// Called from one thread at a time, a few times a second and at the end.
     std::function<void(const RenderProgress&)> progress = {};
 
@@ -63,6 +64,9 @@ struct RenderResult {
     std::optional<double> noise = {};  ///< film_noise, if it was asked for and all have samples
     RayCounts counts = {};
     Statistics statistics = {};  ///< of precomputation
+    /// If asked for, two films of about half the samples each, which together are `film`: what is
+    /// noise and what is picture can be told from them (render/denoised.h). Else empty.
+    std::vector<Film> halves = {};
 };
 
 /// Renders a frame. The same scene and seed give the same bits for any number of threads, and a

@@ -2,6 +2,8 @@
 
 #include <xmmintrin.h>
 
+#include <bit>
+
 #include "nacre/math/error.h"
 #include "nacre/spectrum/color.h"
 #include "nacre/spectrum/photometry.h"
@@ -100,6 +102,13 @@ RayCounts RenderJob::counts_so_far() {
     return counts_;
 }
 
+void RenderJob::keep_halves() {
+    // Small enough that the halves of an interrupted picture are nearly equal.
+    constexpr unsigned longest = 16;
+    block_ = std::bit_floor(std::clamp(unsigned(samples_) / 4, 1u, longest));
+    for (int i = 0; i < 2; ++i) halves_.emplace_back(film_.settings());
+}
+
 Tile RenderJob::tile(int index) const {
     const int x = index % columns_ * tile_side, y = index / columns_ * tile_side;
     return {x, y, std::min(x + tile_side, film_.width()), std::min(y + tile_side, film_.height())};
@@ -159,6 +168,7 @@ void RenderJob::render_sample(int x, int y, std::uint32_t s, Sampler& sampler, R
         rgb = {value, value, value};
     }
     film_.add(x, y, s, rgb, position.weight, spectral);
+    if (!halves_.empty()) halves_[s / block_ % 2].add(x, y, s, rgb, position.weight, spectral);
 }
 
 double RenderJob::pixel_solid_angle(int full_x, int full_y) const {

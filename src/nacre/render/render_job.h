@@ -60,6 +60,12 @@ class RenderJob {
     std::uint64_t render(const Tile& tile, SampleRange samples,
                          const std::function<bool()>& go_on = {});
 
+    /// Adds each sample, from now on, to one of two further films as well. Blocks of samples go to
+    /// either in turn: blocks of a sequence of low discrepancy are such sequences themselves, while
+    /// every other sample of one is not.
+    void keep_halves();
+    std::vector<Film> take_halves() { return std::move(halves_); }
+
     /// What there is so far. Not while tiles are rendered.
     Film& film() { return film_; }
     const RayCounts& counts() const { return counts_; }
@@ -78,6 +84,8 @@ class RenderJob {
     const Integrator& integrator_;
     const CameraPtr camera_;
     Film film_;
+    std::vector<Film> halves_;  // two, or none
+    std::uint32_t block_ = 1;   // samples that one half gets before the other does
     const Filter filter_;
     const Sampler sampler_;
     int samples_, columns_, rows_;
