@@ -100,6 +100,15 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
             float cosine = 1.f;
             cell.strength[j] =
                 strength(targets_[j], first->p, cell.normals[0], cosine) / reference_;
+            if (targets_[j].sky) {
+                // Small bright parts are seen by one plane and not by the next.
+                cell.strength[j] *= plane_weight[0];
+                for (std::size_t k = 1; k < planes; ++k) {
+                    const GuideSky::Strength& s = targets_[j].sky->strength(cell.normals[k]);
+                    cell.strength[j] += plane_weight[k] * s.value / reference_;
+                    cosine = std::max(cosine, s.cos_in);
+                }
+            }
             cell.fall[j] = sigma_t_ / cosine;
         }
         float total = 0.f;

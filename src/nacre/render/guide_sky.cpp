@@ -25,8 +25,10 @@ constexpr DirectionCube normals{16};
 // (fireflies).
 constexpr float widened_share = 0.2f, widening = 0.06f;
 
-// Where less of the light stands out of the mean, the walk finds it well enough.
-constexpr float least_share = 0.05f;
+// The walk finds the sky well enough as long as what stands out of its mean makes less variance
+// than this over uniform directions, relative to the squared mean: a soft sky has some 0.1, a half
+// that shines and one that does not 1, windows in a room 10 and more, the sun thousands.
+constexpr double least_variance = 1.;
 
 float luminance_towards(const Light& light, const Vec3f& d, const Wavelengths& rgb) {
     const Spectral l = light.radiance(nullptr, d, rgb);
@@ -113,21 +115,22 @@ std::shared_ptr<const GuideSky> GuideSky::of(const Light& light, float eta, floa
     const auto mean = static_cast<float>(total / sphere);
 
     auto sky = std::make_shared<GuideSky>();
-    double bright = 0.;
+    double bright = 0., squared = 0.;
     std::vector<float> coarse_flux(coarse.size(), 0.f);
     for (std::size_t c = 0; c < fine.size(); ++c) {
         flux[c] = std::max(0.f, flux[c] - mean * solid_angle[c]);
         bright += flux[c];
+        squared += double(flux[c]) * flux[c] / solid_angle[c];
         coarse_flux[coarse.cell(fine.center(c))] += flux[c];
     }
-    if (!(bright > least_share * total)) return nullptr;
+    if (!(squared * sphere > least_variance * total * total)) return nullptr;
     sky->flux_ = static_cast<float>(bright);
     sky->fine_share_ = spread > 0.f ? 0.f : 1.f - widened_share;
     sky->fine_ = CubeDensity(fine, flux);
 
     std::vector<std::pair<Vec3f, float>> lamps;
     for (std::size_t c = 0; c < coarse.size(); ++c)
-        if (coarse_flux[c] > 1e-6f * sky->flux_)
+        if (coarse_flux[c] > 1e-5f * sky->flux_)
             lamps.emplace_back(coarse.center(c), coarse_flux[c]);
     const float alpha = std::max(spread, widening);
     std::vector<float> wide(coarse.size());

@@ -43,7 +43,7 @@ class CubeDensity {
 
 class GuideSky {
   public:
-    /// Null if too little of `light`, which is infinite, stands out. `eta` > 1 is the boundary's
+    /// Null if `light`, which is infinite, is too even. `eta` > 1 is the boundary's
     /// index inside over outside; `spread` the tangent of the angle by which a rough boundary
     /// spreads light that leaves, 0 for a smooth one.
     static std::shared_ptr<const GuideSky> of(const Light& light, float eta, float spread);
