@@ -147,6 +147,27 @@ TEST_F(Furnace, RoughGlassLosesALittleAndGainsNothing) {
         }
 }
 
+// The same boundary around white matter, which light leaves by guided connections where the light is
+// a shell (and by chance where it is a constant): a share is lost, the same one however it leaves.
+TEST_F(Furnace, RoughBodyLosesTheSameUnderEveryLight) {
+    const std::string body = xml::sphere({}, 1,
+                                         xml::rough_dielectric(1.5, 0.1, "beckmann") +
+                                             white_medium(4, xml::phase("isotropic"), "interior"));
+    std::vector<RadianceEstimate> seen;
+    for (const std::string light : {"constant", "envmap", "shell"}) {
+        const Scene s = scene(xml::integrator("volpath") + body + lights_.at(light));
+        seen.push_back(
+            estimate(s, ray_bundle({0, 0, 5}, {0, 0, -1}, 1.f), {.pixels = 4000, .seed = 5}));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LT(seen.back().mean[c], 1 + 4 * seen.back().error[c]) << light;
+            EXPECT_GT(seen.back().mean[c], 0.85 - 4 * seen.back().error[c]) << light;
+            EXPECT_LT(seen.back().error[c], 4e-3) << light;
+        }
+    }
+    expect_agreement(seen[0], seen[1], sidak_deviations(6), "constant and map");
+    expect_agreement(seen[0], seen[2], sidak_deviations(6), "constant and shell");
+}
+
 using LongFurnace = Furnace;
 TEST_F(LongFurnace, EveryObjectIntegratorSamplerAndLight) {
     for (const Object& object : objects())

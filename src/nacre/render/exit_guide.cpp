@@ -50,11 +50,12 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
     targets_ = find_guide_targets(scene, bounds, eta, spread, max_targets);
     if (targets_.empty() || !(sigma_t_ > 0.f)) return;
 
-    // The most that the targets could bring: at the surface, facing each.
+    // The most that the targets could bring: at the surface, facing each. Under a sky that brings
+    // much by itself proposals are worth less.
     float most = 0.f, cos_in;
     for (const GuideTarget& target : targets_)
         most += target.sky
-                    ? target.sky->most()
+                    ? target.sky->most() + target.sky->rest()
                     : strength(target, bounds.center(), target.towards(bounds.center()), cos_in);
     if (!(most > 0.f)) return;
     reference_ = certain_share * most;

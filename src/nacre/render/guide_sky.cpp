@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "nacre/optics/fresnel.h"
 #include "nacre/render/guide_lobe.h"
@@ -158,6 +159,14 @@ std::shared_ptr<const GuideSky> GuideSky::of(const Light& light, float eta, floa
         }
         if (sum > 0.f) sky->strengths_[c] = {sum, cosines / sum};
     });
+    constexpr int steps = 64;  // over the cosine outside
+    for (int i = 0; i < steps; ++i) {
+        const float cos_out = (static_cast<float>(i) + 0.5f) / steps;
+        sky->rest_ += cos_out / (eta * eta * refracted_cosine(cos_out, eta)) *
+                      (1.f - fresnel_dielectric(cos_out, eta));
+    }
+    sky->rest_ *=
+        2.f * std::numbers::pi_v<float> / steps * static_cast<float>((total - bright) / sphere);
     for (const Strength& s : sky->strengths_) sky->most_ = std::max(sky->most_, s.value);
     return sky->most_ > 0.f ? sky : nullptr;
 }

@@ -61,11 +61,12 @@ class GuideSky {
     const Strength& strength(const Vec3f& normal) const {
         return strengths_[normals_.cell(normal)];
     }
-    /// The largest strength of all normals.
+    /// The largest strength of all normals, and what the rest of the sky would bring, were it even.
     float most() const { return most_; }
+    float rest() const { return rest_; }
 
   private:
-    float flux_ = 0.f, most_ = 0.f, fine_share_ = 0.f;
+    float flux_ = 0.f, most_ = 0.f, rest_ = 0.f, fine_share_ = 0.f;
     CubeDensity fine_, wide_;
     DirectionCube normals_;
     std::vector<Strength> strengths_;

@@ -231,6 +231,8 @@ bool VolumePath::at_surface() {
             return follow(at, bsdf, wo, *refracted);
         }
     }
+    if (depth_ == 0 && wo.z > 0.f && shape.interior && tracer_.info(shape.interior).guide.rough())
+        return split_at_rough_boundary(at, bsdf, wo, material.rough_boundary_eta(), u2);
     const auto sample = bsdf.sample(wo, u1, u2);
     return sample && max_lane(sample->weight) > 0.f && follow(at, bsdf, wo, *sample);
 }

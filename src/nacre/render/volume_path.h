@@ -30,6 +30,10 @@ class VolumePath {
     // What happens at the places that `travel` leads to; false ends the path.
     bool at_surface();
     bool at_collision();
+    // Goes on from a rough boundary, seen first and from outside, both ways that one facet sends
+    // light.
+    bool split_at_rough_boundary(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
+                                 float eta, Vec2f u);
     // Goes on from a surface in the direction of `sample`.
     bool follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& wo,
                 const BsdfSample& sample);
