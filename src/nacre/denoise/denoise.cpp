@@ -13,6 +13,8 @@ namespace {
 
 /// Features that vary by less are noise or nothing.
 constexpr float feature_noise = 0.01f;
+/// Features that differ by less are of pixels that are equally noisy.
+constexpr float alike = 0.05f;
 
 Planes planes_of(const Image& image, int count, float factor = 1.f) {
     Planes planes(image.width, image.height, count);
@@ -45,6 +47,16 @@ Planes scaled(const Planes& planes, float factor) {
     for (int c = 0; c < planes.count(); ++c)
         for (int y = 0; y < planes.height(); ++y)
             for (int x = 0; x < planes.width(); ++x) *result.at(c, x, y) *= factor;
+    result.mirror();
+    return result;
+}
+
+/// The same value wherever `planes` have one.
+Planes constant(const Planes& planes, float value) {
+    Planes result = planes;
+    for (int c = 0; c < planes.count(); ++c)
+        for (int y = 0; y < planes.height(); ++y)
+            std::fill_n(result.at(c, 0, y), planes.width(), value);
     result.mirror();
     return result;
 }
@@ -89,9 +101,13 @@ class Denoiser {
             features_ = weighted_mean(features_, PatchWeights(features_, noise, {4, 1, 1.f}));
         }
         mean_ = mean();
-        // A pixel whose samples all missed what is rare would else seem sure of itself.
-        variance_ = larger(variance_,
-                           weighted_mean(variance_, PatchWeights(mean_, variance_, {4, 1, 1.f})));
+        // A pixel whose samples all missed what is rare would else seem sure of itself. Its like are
+        // found by features: by colour, all that is noisy would be like it.
+        const bool bare = features_.count() == 0;
+        const Planes tolerance = bare ? variance_ : constant(features_, alike * alike);
+        variance_ =
+            larger(variance_, weighted_mean(variance_, PatchWeights(bare ? mean_ : features_,
+                                                                    tolerance, {4, 1, 1.f})));
     }
 
     Planes run() {

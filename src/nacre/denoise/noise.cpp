@@ -21,16 +21,15 @@ float brightness(const Planes& planes, int x, int y) {
     return *planes.at(0, x, y) + *planes.at(1, x, y) + *planes.at(2, x, y);
 }
 
-/// How bright both halves are around a pixel, in order, without the brightest few, which may be of
-/// the same kind.
+/// How bright both halves are around a pixel, in order, without the brightest, which may be of the
+/// same kind.
 void around(const std::array<Planes, 2>& halves, int x, int y, std::vector<float>& values) {
-    constexpr std::size_t left_out = 4;
     values.clear();
     for_each_neighbour([&](int dx, int dy) {
         for (const Planes& half : halves) values.push_back(brightness(half, x + dx, y + dy));
     });
     std::sort(values.begin(), values.end());
-    values.resize(values.size() - left_out);
+    values.pop_back();
 }
 
 /// The most that goes for noise among such values.
@@ -82,7 +81,7 @@ void remove_fireflies(std::array<Planes, 2>& halves, Planes& variance) {
                 if (!(own > 2.f * other)) continue;
                 around(before, x, y, values);
                 const float brightest = values.back();
-                if (!(own > 1.5f * brightest && own > usual(values))) continue;
+                if (!(own > 3.f * brightest && own > usual(values))) continue;
                 for (int c = 0; c < 3; ++c) {
                     *halves[h].at(c, x, y) *= std::max(other, brightest) / own;
                     *variance.at(c, x, y) = std::min(*variance_before.at(c, x, y),

@@ -10,7 +10,7 @@ namespace nacre {
 namespace {
 
 /// Beyond these, edges and lenses are smooth enough to be features of a filter.
-constexpr int most_samples = 32;
+constexpr int most_samples = 16;
 
 void sample_pixel(const Scene& scene, const FrameSettings& frame, const Filter& filter,
                   Sampler& sampler, int x, int y, AuxiliaryImages& images) {

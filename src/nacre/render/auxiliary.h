@@ -27,7 +27,7 @@ struct AuxiliaryImages {
 };
 
 /// By camera rays alone, whatever renders the picture: each sees the same place through the same
-/// part of the lens as the picture's sample of that number, of which the first 32 are taken. The
+/// part of the lens as the picture's sample of that number, of which the first 16 are taken. The
 /// same bits for any number of threads. Throws InputError as RenderJob does, Stopped if `work` says
 /// so.
 AuxiliaryImages render_auxiliary(const Scene& scene, const FrameSettings& frame,
