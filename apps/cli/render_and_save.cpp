@@ -146,6 +146,7 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
             format_seconds(result.seconds + result.precompute_seconds + finish.seconds),
             format_seconds(result.cpu_seconds + result.precompute_cpu_seconds + finish.cpu_seconds),
             static_cast<double>(result.counts.rays) / 1e6);
+    if (!options.quiet && !options.remark.empty()) say("nacre:   {}\n", options.remark);
     if (!options.quiet)
         for (const Statistic& s : result.statistics)
             say("nacre:   {} {:g} {}\n", s.name, s.value, s.unit);

@@ -19,6 +19,7 @@ struct SaveOptions {
     bool strict = false, quiet = false, json = false;
     FilmOptions film;
     std::optional<MeshPose> pose = {};  ///< of a bare mesh in its file, for the summary
+    std::string remark = {};            ///< a line of its own below that of the written picture
     FinishOptions finish = {};
 };
 

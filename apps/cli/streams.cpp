@@ -27,6 +27,13 @@ void finish_standard_output() {
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0;
     if (flushed && !std::ferror(stdout) && std::cout) return;
+    if (flushed) {
+        // More than the buffer holds was written before, and why that failed is forgotten: it will
+        // fail again.
+        std::clearerr(stdout);
+        std::fputc('\n', stdout);
+        std::fflush(stdout);
+    }
     throw RunError(fmt::format("standard output cannot be written: {}",
                                errno ? std::strerror(errno) : "an earlier part was lost"));
 }

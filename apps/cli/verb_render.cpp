@@ -109,8 +109,8 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
     save.strict = o.strict;
     save.quiet = o.quiet;
     save.json = o.json;
-    if (save.pose && !o.quiet && !(app.count("--up") && app.count("--view")))
-        say("nacre: {}\n", sentence_about(*save.pose));
+    if (save.pose && !(app.count("--up") && app.count("--view")))
+        save.remark = sentence_about(*save.pose);
     return render_and_save(scene, plan(scene, o, app), save, invocation);
 }
 
