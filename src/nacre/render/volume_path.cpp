@@ -97,23 +97,25 @@ VolumePath::Event VolumePath::travel() {
 }
 
 VolumePath::Event VolumePath::travel_homogeneous() {
-    const MediumLanes lanes(medium_->coefficients(ray_.o, wavelengths_), wavelengths_, hero_);
-    if (!(lanes.hero_sigma > 0.f)) {
+    const MediumLanes lanes = lanes_of(*medium_, ray_.o);
+    if (!(lanes.hero_sigma * lanes.hero_chance > 0.f)) {
         ++counts_.rays;
         hit_ = scene_.rays.intersect(ray_);
-        density_ *= lanes.transmittance(hit_ ? hit_->t : 1e30f);
+        pass(lanes, hit_ ? hit_->t : 1e30f);
         return hit_ ? Event::surface : Event::escaped;
     }
     const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
     WalkSurroundings surroundings{*this, info, lanes, Random(sampler_.random().next_bits())};
     Walker walker{ray_.o, ray_.d, ray_.d, sampler_.random()};
+    const std::uint32_t chunk = lanes.chunk(walk_chunk);
     for (;;) {
         const std::uint32_t left =
-            max_depth_ < 0 ? walk_chunk : static_cast<std::uint32_t>(max_depth_ - depth_);
+            max_depth_ < 0 ? chunk : static_cast<std::uint32_t>(max_depth_ - depth_);
         walker.collisions = 0;
         walker.length = 0.f;
-        const WalkEnd end = walk(walker, lanes.hero_sigma, medium_->phase,
-                                 info.connect ? 1 : std::min(walk_chunk, left), surroundings);
+        const WalkEnd end =
+            walk(walker, lanes.hero_sigma, medium_->phase, info.connect ? 1 : std::min(chunk, left),
+                 surroundings, lanes.hero_chance);
         sampler_.random() = walker.random;
         counts_.scatterings += walker.collisions;
         depth_ += static_cast<int>(walker.collisions);
@@ -125,9 +127,14 @@ VolumePath::Event VolumePath::travel_homogeneous() {
             last_collision_ = {true, walker.p, walker.d_in, density_};
         }
         if (end == WalkEnd::lost) return Event::ended;
+        if (end == WalkEnd::escaped) {
+            hit_.reset();
+            pass(lanes, walker.free_path);
+            return Event::escaped;
+        }
         if (end == WalkEnd::surface) {
             hit_ = surroundings.hit;
-            density_ *= lanes.transmittance(walker.free_path);
+            pass(lanes, walker.free_path);
             return Event::surface;
         }
         if (info.connect) return Event::collision;
@@ -141,6 +148,12 @@ VolumePath::Event VolumePath::travel_homogeneous() {
     }
 }
 
+void VolumePath::pass(const MediumLanes& lanes, float length) {
+    const Spectral left = lanes.transmittance(length), passing = lanes.passing(left);
+    density_ *= passing;
+    if (!lanes.always) throughput_ *= left / max(passing, Spectral(1e-30f));
+}
+
 VolumePath::Event VolumePath::travel_heterogeneous() {
     ++counts_.rays;
     hit_ = scene_.rays.intersect(ray_);
@@ -148,23 +161,28 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
     Random& random = sampler_.random();
     // Delta tracking (Woodcock 1965) with the hero's probabilities; a majorant common to all lanes
     // keeps the density of the tentative collisions out of the book-keeping.
-    MajorantSegments segments(tracer_.info(medium_).majorants, *medium_, ray_, end, wavelengths_);
+    const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
+    const VolumeTracking tracking(info, *medium_, wavelengths_);
+    MajorantSegments segments(info.majorants, *medium_, ray_, end, wavelengths_);
     float t = 0.f;
     while (const auto segment = segments.next()) {
         t = std::max(t, segment->begin);
-        if (!(segment->majorant > 0.f)) continue;
+        const float majorant = segment->majorant * tracking.largest;
+        if (!(majorant > 0.f)) continue;
         for (;;) {
-            t += -fast_log(1.f - random.next()) / segment->majorant;
+            t += -fast_log(1.f - random.next()) / majorant;
             if (t >= segment->end) break;
             const Point3f p = ray_.o + ray_.d * t;
             const MediumCoefficients c = medium_->coefficients(p, wavelengths_);
-            const Spectral real = c.sigma_t * Spectral(1.f / segment->majorant);
+            const Spectral tracked = c.sigma_t * tracking.tracked;
+            const Spectral real = tracked * Spectral(1.f / majorant);
             if (random.next() >= real[hero_]) {
                 density_ *= max(Spectral(0.f), Spectral(1.f) - real);
                 continue;
             }
-            throughput_ *= select(c.sigma_t > Spectral(0.f),
-                                  c.sigma_s / max(c.sigma_t, Spectral(1e-30f)), Spectral(0.f));
+            throughput_ *= select(tracked > Spectral(0.f),
+                                  c.sigma_s / max(tracked, Spectral(1e-30f)), Spectral(0.f)) *
+                           tracking.remaining(ray_, t);
             density_ *= real;
             density_ *= Spectral(1.f / max_lane(density_));
             ++counts_.scatterings;
@@ -174,6 +192,7 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
         }
         t = segment->end;
     }
+    throughput_ *= tracking.remaining(ray_, end);
     return hit_ ? Event::surface : Event::escaped;
 }
 

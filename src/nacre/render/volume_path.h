@@ -5,6 +5,7 @@
 #include "nacre/render/path_state.h"
 #include "nacre/render/shadow_ray.h"
 #include "nacre/render/volume_path_tracer.h"
+#include "nacre/render/volume_tracking.h"
 
 namespace nacre {
 
@@ -27,6 +28,8 @@ class VolumePath {
     Event travel();
     Event travel_homogeneous();
     Event travel_heterogeneous();
+    // Over a piece of a homogeneous medium without a collision.
+    void pass(const MediumLanes& lanes, float length);
     // What happens at the places that `travel` leads to; false ends the path.
     bool at_surface();
     bool at_collision();
@@ -85,6 +88,10 @@ class VolumePath {
     Spectral arriving(const SpecularChains::Chain& chain, const Point3f& origin,
                       const Medium* medium, Random& random);
 
+    MediumLanes lanes_of(const Medium& medium, const Point3f& p) const {
+        return {medium.coefficients(p, wavelengths_), wavelengths_, hero_,
+                tracer_.info(&medium).size};
+    }
     bool within_depth(int more) const { return max_depth_ < 0 || depth_ + more < max_depth_; }
     // What the path carries, as the roulette weighs it.
     float relative_weight() const;

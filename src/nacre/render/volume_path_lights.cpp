@@ -71,11 +71,10 @@ struct VolumePath::WayToLight {
     bool passes(const ShapeBinding& shape) const { return shape.material->flags() & has_null; }
     bool segment(const Ray& ray, float length) {
         if (medium && medium->homogeneous()) {
-            const Spectral t = MediumLanes(medium->coefficients(ray.o, path.wavelengths_),
-                                           path.wavelengths_, path.hero_)
-                                   .transmittance(length);
+            const MediumLanes lanes = path.lanes_of(*medium, ray.o);
+            const Spectral t = lanes.transmittance(length);
             c.kept *= t;
-            c.density *= t;
+            c.density *= lanes.passing(t);
         } else if (medium) {
             ratio_tracking(ray, length);
         }
@@ -94,18 +93,21 @@ struct VolumePath::WayToLight {
     // Novak, Selle, Jarosz 2014, Residual Ratio Tracking for Estimating Attenuation in
     // Participating Media, TOG 33(6).
     void ratio_tracking(const Ray& ray, float length) {
-        MajorantSegments segments(path.tracer_.info(medium).majorants, *medium, ray, length,
-                                  path.wavelengths_);
+        const VolumePathTracer::MediumInfo& info = path.tracer_.info(medium);
+        const VolumeTracking tracking(info, *medium, path.wavelengths_);
+        c.kept *= tracking.remaining(ray, length);
+        MajorantSegments segments(info.majorants, *medium, ray, length, path.wavelengths_);
         while (const auto s = segments.next()) {
-            if (!(s->majorant > 0.f)) continue;
+            const float majorant = s->majorant * tracking.largest;
+            if (!(majorant > 0.f)) continue;
             for (float t = s->begin;;) {
-                t += -fast_log(1.f - random.next()) / s->majorant;
+                t += -fast_log(1.f - random.next()) / majorant;
                 if (t >= s->end) break;
+                const Spectral sigma_t =
+                    medium->coefficients(ray.o + ray.d * t, path.wavelengths_).sigma_t;
                 const Spectral passed =
                     max(Spectral(0.f),
-                        Spectral(1.f) -
-                            medium->coefficients(ray.o + ray.d * t, path.wavelengths_).sigma_t *
-                                Spectral(1.f / s->majorant));
+                        Spectral(1.f) - sigma_t * tracking.tracked * Spectral(1.f / majorant));
                 c.kept *= passed;
                 c.density *= passed;
             }
@@ -154,13 +156,13 @@ void VolumePath::guided_exit(const ExitGuide::Proposal& proposal, const Walker& 
 
     // Radiance grows by eta^2 on its way in. Both strategies' densities at the collision, for each
     // lane.
-    const Spectral kept = lanes.transmittance(hit->t);
+    const Spectral kept = lanes.transmittance(hit->t), passing = lanes.passing(kept);
     const float phase = medium_->phase.eval(dot(walker.d, *inside));
     const Spectral throughput = throughput_ * lanes.survival(walker.collisions);
     const Spectral density = density_ * lanes.walk_density(walker.collisions, walker.length);
     const float guided = proposal.probability() * proposal.pdf(*inside);
     const float total =
-        mean_of(density * (kept * Spectral(phase * transmittance) + Spectral(guided)));
+        mean_of(density * (passing * Spectral(phase * transmittance) + Spectral(guided)));
     if (!(total > 0.f)) return;
     result_ +=
         throughput * density * kept * emitted * Spectral(phase * transmittance * eta * eta / total);

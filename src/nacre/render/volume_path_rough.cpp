@@ -58,15 +58,16 @@ void VolumePath::guided_connection(const ExitGuide::Proposal& proposal, const Wa
     const Connection c = connection(shadow_ray(at, light), shape.exterior, random);
     if (!(max_lane(c.kept) > 0.f)) return;
 
-    const Spectral kept =
-        lanes.transmittance(hit->t) * Spectral(medium_->phase.eval(dot(walker.d, *inside)));
+    const Spectral left = lanes.transmittance(hit->t),
+                   phase(medium_->phase.eval(dot(walker.d, *inside))), kept = left * phase,
+                   passing = lanes.passing(left) * phase;
     const Spectral throughput = throughput_ * lanes.survival(walker.collisions);
     const Spectral density = density_ * lanes.walk_density(walker.collisions, walker.length);
     const float guided = proposal.probability() * proposal.pdf(*inside);
     const float light_pdf = light.pdf * choice.probability;
     const float own_pdf = light.delta ? 0.f : value.pdf;
-    const float total = mean_of(density * ((kept + Spectral(guided)) * Spectral(light_pdf) +
-                                           kept * c.density * Spectral(own_pdf)));
+    const float total = mean_of(density * ((passing + Spectral(guided)) * Spectral(light_pdf) +
+                                           passing * c.density * Spectral(own_pdf)));
     if (total > 0.f)
         result_ +=
             throughput * density * kept * value.f * c.kept * light.radiance * Spectral(1.f / total);

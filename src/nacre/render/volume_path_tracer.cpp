@@ -54,6 +54,8 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
     work.check();
     MediumInfo& info = media_[&medium];
     if (!medium.homogeneous()) info.majorants = MajorantGrid(medium);
+    if (!medium.albedo_volume)
+        info.integrable = dynamic_cast<const IntegrableVolume*>(medium.sigma_t_volume.get());
     std::vector<std::uint32_t> boundary;
     Box3f bounds;
     bool refracts_everywhere = true, even = true;
@@ -76,12 +78,12 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
         eta = this_eta;
         if (rough) spread = std::max(spread, spread_of(*shape.material));
     }
+    const Vec3f extent = bounds.diagonal();
+    if (!boundary.empty()) info.size = std::min({extent.x, extent.y, extent.z});
     if (!boundary.empty() && !chains_.empty()) {
         // Light that is reflected inside has crossed the matter: what is left of it by then.
         const Vec3f sigma = medium.homogeneous() ? medium.sigma_t->rgb() : Vec3f{};
-        const Vec3f size = bounds.diagonal();
-        const float crossed = std::min({sigma.x, sigma.y, sigma.z}) * medium.scale *
-                              std::min({size.x, size.y, size.z});
+        const float crossed = std::min({sigma.x, sigma.y, sigma.z}) * medium.scale * info.size;
         info.chain_chance = most_chain_chance * std::exp(-0.5f * crossed);
     }
     if (boundary.empty() || scene_.camera_medium == &medium) return;
@@ -93,8 +95,11 @@ void VolumePathTracer::prepare(const Medium& medium, const Work& work) {
     // Exits are guided from the grid's cells, whether or not its distances save rays.
     const bool guided = scene_.integrator.guided_exits && even && !info.connect;
     if (!medium.homogeneous() || !(scene_.integrator.distance_grid || guided)) return;
-    const Vec3f sigma_t = medium.sigma_t->rgb();
-    const float thickest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * medium.scale;
+    // Where nothing is scattered, paths do not collide.
+    const Vec3f sigma_t = medium.sigma_t->rgb(), albedo = medium.albedo->rgb();
+    float thickest = 0.f;
+    for (std::size_t c = 0; c < 3; ++c)
+        if (albedo[c] > 0.f) thickest = std::max(thickest, sigma_t[c] * medium.scale);
     if (!(thickest > 0.f)) return;
     info.grid =
         DistanceGrid(scene_.rays, bounds, cell_in_free_paths / thickest, max_grid_cells, work);

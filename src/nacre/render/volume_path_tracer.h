@@ -18,6 +18,7 @@
 #include "nacre/render/light_chooser.h"
 #include "nacre/render/majorant_grid.h"
 #include "nacre/render/specular_chain.h"
+#include "nacre/scene/integrable_volume.h"
 
 namespace nacre {
 
@@ -32,7 +33,10 @@ class VolumePathTracer : public Integrator {
     struct MediumInfo {
         bool connect = true;  ///< lights may be reached in a straight line from inside: next-event
                               ///< estimation is useful
+        float size = 0.f;     ///< smallest extent of what it fills; 0 if not known
         MajorantGrid majorants;
+        /// Of the extinction, where only it varies in space and its integral is known.
+        const IntegrableVolume* integrable = nullptr;
         DistanceGrid grid;
         ExitGuide guide;
         /// Chance that a collision looks for light that was reflected inside before.

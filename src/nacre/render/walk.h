@@ -29,15 +29,20 @@ struct Walker {
 /// thought about.
 inline constexpr std::uint32_t walk_chunk = 64;
 
+/// Farther than any surface.
+inline constexpr float no_surface = 1e30f;
+
 enum class WalkEnd {
     surface,  ///< a surface ends the segment that starts at `p` along `d`
     paused,   ///< the allowed number of collisions was made; `d` is still the direction before the
               ///< last one
+    escaped,  ///< passed, and no surface ended the segment
     lost,     ///< left the region that the surroundings know: through a leak in a mesh, say
 };
 
-/// Walks until one of the three ends. `sigma_t` is the extinction for which free paths are drawn;
-/// absorption is not drawn but left to the caller, as a weight per collision.
+/// Walks until one of these ends. `sigma_t` is the extinction for which free paths are drawn, each
+/// time with the given chance, else the walk passes to the next surface however far; absorption is
+/// not drawn but left to the caller, as a weight per collision and passage.
 ///
 /// Surroundings provide
 ///   Place locate(const Point3f&)     with the members `clearance` (a lower bound of the distance to
@@ -47,14 +52,21 @@ enum class WalkEnd {
 ///                                    called at each collision, before the direction changes
 template <class Surroundings>
 WalkEnd walk(Walker& w, float sigma_t, const PhaseFunction& phase, std::uint32_t max_collisions,
-             Surroundings& surroundings) {
+             Surroundings& surroundings, float chance = 1.f) {
+    const float inverse_chance = 1.f / chance;
     const float mean_free_path = 1.f / sigma_t;
     const bool isotropic = phase.kind() == PhaseFunction::Kind::isotropic;
     auto place = surroundings.locate(w.p);
     for (;;) {
-        const float s = -fast_log(1.f - w.random.next()) * mean_free_path;
+        const float drawn = 1.f - w.random.next();
+        const bool passes = drawn > chance;
+        const float s = passes ? no_surface : -fast_log(drawn * inverse_chance) * mean_free_path;
         if (s >= place.clearance && surroundings.surface(w.p, w.d, s, w.free_path))
             return WalkEnd::surface;
+        if (passes) {
+            w.free_path = s;
+            return WalkEnd::escaped;
+        }
         w.p += w.d * s;
         w.length += s;
         ++w.collisions;

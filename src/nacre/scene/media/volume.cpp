@@ -1,5 +1,6 @@
 #include "nacre/scene/volume.h"
 
+#include "nacre/scene/integrable_volume.h"
 #include "nacre/scene/media/volume_grid.h"
 #include "nacre/text/names.h"
 
@@ -7,12 +8,16 @@ namespace nacre {
 
 namespace {
 
-class ConstantVolume final : public Volume {
+class ConstantVolume final : public IntegrableVolume {
   public:
     explicit ConstantVolume(SpectrumPtr value) : value_(std::move(value)) {}
 
     Spectral eval(const Point3f&, const Wavelengths& w) const override { return value_->eval(w); }
     float max() const override { return value_->max(); }
+    Spectral integral(const Point3f&, const Vec3f&, float begin, float end,
+                      const Wavelengths& w) const override {
+        return value_->eval(w) * Spectral(end - begin);
+    }
     Box3f bounds() const override { return {{-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}}; }
 
   private:

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "nacre/math/error.h"
+#include "nacre/scene/integrable_volume.h"
 #include "nacre/spectrum/uplift.h"
 
 namespace nacre {
@@ -14,7 +15,7 @@ namespace {
 /// Voxels of a coarse cell along each axis, for bounds inside a box.
 constexpr int brick_size = 8;
 
-class GridVolume final : public Volume {
+class GridVolume final : public IntegrableVolume {
   public:
     GridVolume(std::shared_ptr<const VoxelGrid> grid, const GridVolumeOptions& options)
         : grid_(std::move(grid)),
@@ -36,29 +37,60 @@ class GridVolume final : public Volume {
 
     Spectral eval(const Point3f& p, const Wavelengths& w) const override {
         const Vec3f q = to_voxels(p);
-        if (!everywhere_ && !inside(q)) return Spectral(0.f);
-        const Cell cell = find(q);
-        if (grid_->channels == 1) {
-            const float v = interpolate(
-                cell, [&](std::size_t i) { return grid_->data[i]; }, 0.f);
-            return w.mode == ColorMode::rgb_bands ? Spectral(v, v, v, 0.f) : Spectral(v);
-        }
-        if (w.mode == ColorMode::rgb_bands)
-            return interpolate(
-                cell,
-                [&](std::size_t i) {
-                    const float* rgb = &grid_->data[3 * i];
-                    return Spectral(rgb[0], rgb[1], rgb[2], 0.f);
-                },
-                Spectral(0.f));
-        const std::vector<SpectralVoxel>& spectral = spectral_voxels();
-        return interpolate(
-            cell,
-            [&](std::size_t i) { return spectral[i].shape.eval(w.lambda) * spectral[i].scale; },
-            Spectral(0.f));
+        return everywhere_ || inside(q) ? value(q, w) : Spectral(0.f);
     }
 
     float max() const override { return max_; }
+
+    // Between the planes where interpolation changes voxels the value is a cubic polynomial of the
+    // distance, which Simpson's rule integrates exactly.
+    Spectral integral(const Point3f& origin, const Vec3f& direction, float begin, float end,
+                      const Wavelengths& w) const override {
+        const Vec3f o = to_voxels(origin);
+        Vec3f d;
+        for (int i = 0; i < 3; ++i) d[i] = dot(to_voxels_[i], direction);
+        const bool smooth = filter_ == VolumeFilter::trilinear;
+        const float shift = smooth ? 0.5f : 0.f;
+        float t = begin;
+        for (int i = 0; i < 3; ++i) {
+            if (std::abs(d[i]) < 1e-12f) {
+                if (o[i] < 0.f || o[i] > n_[i]) return Spectral(0.f);
+                continue;
+            }
+            const float a = -o[i] / d[i], b = (n_[i] - o[i]) / d[i];
+            t = std::max(t, std::min(a, b));
+            end = std::min(end, std::max(a, b));
+        }
+        Spectral sum(0.f);
+        if (!(t < end)) return sum;
+        Vec3f plane;  // the next one along each axis
+        for (int i = 0; i < 3; ++i) {
+            const float q = o[i] + d[i] * t - shift;
+            plane[i] = shift + (d[i] > 0.f ? std::floor(q) + 1.f : std::ceil(q) - 1.f);
+        }
+        const auto at = [&](float s) { return value(o + d * s, w); };
+        Spectral last = smooth ? at(t) : Spectral(0.f);
+        while (t < end) {
+            int axis = -1;
+            float next = end;
+            for (int i = 0; i < 3; ++i) {
+                if (std::abs(d[i]) < 1e-12f) continue;
+                const float s = (plane[i] - o[i]) / d[i];
+                if (s < next) {
+                    next = s;
+                    axis = i;
+                }
+            }
+            if (axis >= 0) plane[axis] += d[axis] > 0.f ? 1.f : -1.f;
+            if (!(next > t)) continue;
+            const Spectral middle = at(0.5f * (t + next)), here = smooth ? at(next) : middle;
+            sum += (smooth ? last + middle * Spectral(4.f) + here : middle * Spectral(6.f)) *
+                   Spectral((next - t) * (1.f / 6.f));
+            last = here;
+            t = next;
+        }
+        return sum;
+    }
 
     float max_in(const Box3f& box) const override {
         if (box.empty()) return 0.f;
@@ -94,6 +126,29 @@ class GridVolume final : public Volume {
     Box3f bounds() const override { return bounds_; }
 
   private:
+    /// At a place in units of voxels.
+    Spectral value(const Vec3f& q, const Wavelengths& w) const {
+        const Cell cell = find(q);
+        if (grid_->channels == 1) {
+            const float v = interpolate(
+                cell, [&](std::size_t i) { return grid_->data[i]; }, 0.f);
+            return w.mode == ColorMode::rgb_bands ? Spectral(v, v, v, 0.f) : Spectral(v);
+        }
+        if (w.mode == ColorMode::rgb_bands)
+            return interpolate(
+                cell,
+                [&](std::size_t i) {
+                    const float* rgb = &grid_->data[3 * i];
+                    return Spectral(rgb[0], rgb[1], rgb[2], 0.f);
+                },
+                Spectral(0.f));
+        const std::vector<SpectralVoxel>& spectral = spectral_voxels();
+        return interpolate(
+            cell,
+            [&](std::size_t i) { return spectral[i].shape.eval(w.lambda) * spectral[i].scale; },
+            Spectral(0.f));
+    }
+
     /// A quantity as scale times a smooth spectrum.
     struct SpectralVoxel {
         SigmoidPolynomial shape;
