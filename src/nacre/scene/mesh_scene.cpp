@@ -70,9 +70,10 @@ struct Placement {
         if (options.pose) *options.pose = pose;
         const Vec3f size = box.diagonal();
         if (box.empty() || !(size.y > 0.f))
-            throw InputError(fmt::format("{}: has no height along {}, which is up; turn it upright "
-                                         "(--up)",
-                                         name, name_of(pose.up)));
+            throw InputError(
+                fmt::format("{}: has no height along {}, which is up; turn it upright "
+                            "(--up)",
+                            name, name_of(pose.up)));
         const double widest = std::max(size.x, size.z);
         if (!options.height_mm && widest * usual_height > usual_width * size.y)
             height = usual_width * (size.y / widest);
