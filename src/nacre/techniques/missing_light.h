@@ -7,8 +7,8 @@ namespace nacre {
 
 /// What a scene rendered by a plan cannot show: media, if its integrator does not follow light
 /// through them and no technique stands for them; and point, spot and directional lights beyond a
-/// smooth refracting boundary, which no path through it meets, or by way of a mirror. A sentence each that says what to
-/// do; none if nothing is missing.
+/// smooth refracting boundary that it does not follow them through, or by way of a mirror. A
+/// sentence each that says what to do; none if nothing is missing.
 std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& plan);
 /// The same for complete simulation.
 std::vector<std::string> missing_in_simulation(const Scene& scene);
