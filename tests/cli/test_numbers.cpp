@@ -135,11 +135,11 @@ TEST_F(Numbers, WithinOtherTextAreReadWholeToo) {
 }
 
 TEST_F(Numbers, AreTakenInTheFormsThatPeopleWrite) {
-    const char* totals = "slab --layer 'tau=1 albedo=0.9' --method mc --json --photons ";
-    const std::string plain = nacre(std::string(totals) + "10000").out;
+    const std::string totals = "slab --layer 'tau=1 albedo=0.9' --method mc --json --photons ";
+    const std::string plain = nacre(totals + "10000").out;
     EXPECT_NE(plain, "");
     for (const char* same : {"1e4", "+10000", "010000"})
-        EXPECT_EQ(nacre(std::string(totals) + same).out, plain) << same;
+        EXPECT_EQ(nacre(totals + same).out, plain) << same;
     EXPECT_EQ(nacre("check lambert --seed 18446744073709551615 --samples 1e3").code, 0);
     EXPECT_EQ(nacre("render quick.xml -o a.exr -t 65536 --quiet").code, 0);
 }
