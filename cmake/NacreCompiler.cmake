@@ -25,6 +25,6 @@ if(NACRE_SANITIZE)
     target_link_options(nacre_compiler INTERFACE -fsanitize=${NACRE_SANITIZE})
 endif()
 
-# The program and its tests spend their time in the library: they are compiled for the time that compiling takes, a third
-# less than at -O3.
+# The program and its tests spend their time in the library: they are compiled for the time that compiling takes (of four
+# files, 13 to 42 % less than at -O3).
 set(NACRE_QUICK_OPTIONS $<$<CONFIG:Release>:-O1>)
