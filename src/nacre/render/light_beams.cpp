@@ -172,9 +172,8 @@ class LightBeams::Builder {
     Box3f region_;
 };
 
-LightBeams::LightBeams(const Scene& scene, const Work& work) : scene_(&scene) {
-    for (const LightPtr& light : scene.lights)
-        if (const auto place = place_of(*light, scene)) sources_.push_back({light.get(), *place});
+LightBeams::LightBeams(const Scene& scene, const Work& work)
+    : scene_(&scene), sources_(sources_without_extent(scene)) {
     if (sources_.empty()) return;
     std::vector<Box3f> boxes;
     for (std::uint32_t shape = 0; shape < scene.shapes.size(); ++shape) {

@@ -68,10 +68,6 @@ class LightBeams {
         Vec3f d;
         float radius, spread;  // at p, and growing by this along d
     };
-    struct Source {
-        const Light* light;
-        LightPlace place;
-    };
     class Builder;
     // Where on the facet light to y enters, first by interpolation, then exactly.
     static bool near(const Facet& facet, const Point3f& y, double& a, double& b);
@@ -79,7 +75,7 @@ class LightBeams {
     bool complete(const Facet& facet, const Vec3d& y, double a, double b, Way& way) const;
 
     const Scene* scene_ = nullptr;
-    std::vector<Source> sources_;
+    std::vector<SourceWithoutExtent> sources_;
     std::vector<Facet> facets_;
     std::vector<Cone> cones_;              // one for each facet
     std::vector<std::uint32_t> facet_of_;  // each box

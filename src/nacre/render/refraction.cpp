@@ -6,8 +6,6 @@
 namespace nacre {
 namespace {
 
-double det(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return dot(cross(a, b), c); }
-
 /// The part of the derivative `raw` of a vector of length `length` along `unit` that turns it.
 Vec3d turning(const Vec3d& raw, const Vec3d& unit, double length) {
     return (raw - unit * dot(unit, raw)) * (1 / length);
@@ -28,12 +26,20 @@ ToLight to_light(const SurfaceChart& at, const LightPlace& light) {
 
 }  // namespace
 
-std::optional<LightPlace> place_of(const Light& light, const Scene& scene) {
-    if (!light.is_delta() || !(light.power() > 0.f)) return std::nullopt;
-    const Box3f place = light.bounds();
-    if (!place.empty()) return LightPlace{Vec3d(place.center()), false};
-    const LightSample s = light.sample(scene.rays.bounds().center(), {}, Wavelengths::rgb_bands());
-    return LightPlace{normalize(Vec3d(s.wi)), true};
+std::vector<SourceWithoutExtent> sources_without_extent(const Scene& scene) {
+    std::vector<SourceWithoutExtent> sources;
+    for (const LightPtr& light : scene.lights) {
+        if (!light->is_delta() || !(light->power() > 0.f)) continue;
+        const Box3f place = light->bounds();
+        if (place.empty()) {
+            const LightSample s =
+                light->sample(scene.rays.bounds().center(), {}, Wavelengths::rgb_bands());
+            sources.push_back({light.get(), {normalize(Vec3d(s.wi)), true}});
+        } else {
+            sources.push_back({light.get(), {Vec3d(place.center()), false}});
+        }
+    }
+    return sources;
 }
 
 RefractedLight refract_light(const SurfaceChart& at, const LightPlace& light, double eta) {

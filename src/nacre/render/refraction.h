@@ -1,7 +1,7 @@
 #pragma once
 // Light of a point or of one direction that a smooth boundary refracts, as a function of where on
 // the boundary it enters: the direction inside, and how much of it comes to a point there.
-#include <optional>
+#include <vector>
 
 #include "nacre/geometry/surface_chart.h"
 #include "nacre/scene/scene.h"
@@ -15,8 +15,14 @@ struct LightPlace {
     bool distant = false;
 };
 
-/// The place of a light without extent; empty for others and for those that do not shine.
-std::optional<LightPlace> place_of(const Light& light, const Scene& scene);
+struct SourceWithoutExtent {
+    const Light* light;
+    LightPlace place;
+};
+/// The points, spots and directional lights of a scene that shine.
+std::vector<SourceWithoutExtent> sources_without_extent(const Scene& scene);
+
+inline double det(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return dot(cross(a, b), c); }
 
 /// The refracted direction at a surface, a unit vector into the matter below, and its derivatives
 /// by the surface's parameters.

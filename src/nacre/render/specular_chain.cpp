@@ -18,10 +18,9 @@ constexpr int most_steps = 20, most_halvings = 4;
 // A chain has arrived within this share of the scene's size, and two are the same if they begin
 // within the other.
 constexpr double arrived = 1e-6, same_place = 1e-4;
-// Solutions that are found so seldom are left out; their share of a picture is below one in this.
+// Trials end here: the reciprocal of a smaller probability is underestimated, and the light of a
+// solution found so seldom comes out too dark.
 constexpr int most_trials = 10000;
-
-double det(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return dot(cross(a, b), c); }
 
 /// A ray and its derivatives by two coordinates.
 struct Differential {
@@ -123,9 +122,8 @@ struct SpecularChains::Beam {
     }
 };
 
-SpecularChains::SpecularChains(const Scene& scene) : scene_(&scene) {
-    for (const LightPtr& light : scene.lights)
-        if (const auto place = place_of(*light, scene)) sources_.push_back({light.get(), *place});
+SpecularChains::SpecularChains(const Scene& scene)
+    : scene_(&scene), sources_(sources_without_extent(scene)) {
     double sum = 0;
     for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
         if (!(scene.shapes[i].material->smooth_boundary_eta() > 1.f)) continue;
@@ -172,8 +170,8 @@ bool SpecularChains::trace(Beam& beam, Chain& chain, bool inside, Random* random
         if (random) {
             chain.vertices = i + 1;
             const bool within = from_outside != vertex.reflects;
-            const bool could_end = (within || !inside) && !(i == 0 && !vertex.reflects) &&
-                                   (within == inside || !inside);
+            // One refraction alone is not a chain.
+            const bool could_end = (within || !inside) && !(i == 0 && !vertex.reflects);
             if (could_end && random->next() < end_chance) {
                 beam.last = ray;
                 return true;
@@ -189,8 +187,8 @@ bool SpecularChains::trace(Beam& beam, Chain& chain, bool inside, Random* random
 std::optional<SpecularChains::Chain> SpecularChains::attempt(const Point3f& point, bool inside,
                                                              Random& random,
                                                              RayCounts& counts) const {
-    const Source& source = sources_[std::min(sources_.size() - 1,
-                                             std::size_t(random.next() * float(sources_.size())))];
+    const SourceWithoutExtent& source = sources_[std::min(
+        sources_.size() - 1, std::size_t(random.next() * float(sources_.size())))];
     const double target = random.next() * area_.back();
     const auto boundary =
         std::size_t(std::upper_bound(area_.begin(), area_.end() - 1, target) - area_.begin());
@@ -233,7 +231,8 @@ std::optional<SpecularChains::Chain> SpecularChains::attempt(const Point3f& poin
     return std::nullopt;
 }
 
-double SpecularChains::gain(const Chain& chain, const Source& source, const Point3f& point) const {
+double SpecularChains::gain(const Chain& chain, const SourceWithoutExtent& source,
+                            const Point3f& point) const {
     // As a path from y sees it: directions follow the shading normals.
     const Vec3d y(point);
     const Vec3d towards = normalize(chain.vertex[std::size_t(chain.vertices - 1)].chart.p - y);

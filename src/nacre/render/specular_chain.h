@@ -54,19 +54,15 @@ class SpecularChains {
                               RayCounts& counts) const;
 
   private:
-    struct Source {
-        const Light* light;
-        LightPlace place;
-    };
     struct Beam;
     std::optional<Chain> attempt(const Point3f& y, bool inside, Random& random,
                                  RayCounts& counts) const;
     bool trace(Beam& beam, Chain& chain, bool inside, Random* random, RayCounts& counts) const;
-    double gain(const Chain& chain, const Source& source, const Point3f& y) const;
+    double gain(const Chain& chain, const SourceWithoutExtent& source, const Point3f& y) const;
     bool same(const Chain& a, const Chain& b) const;
 
     const Scene* scene_ = nullptr;
-    std::vector<Source> sources_;
+    std::vector<SourceWithoutExtent> sources_;
     std::vector<std::uint32_t> boundaries_;
     std::vector<double> area_;  // cumulative
     float size_ = 0.f;          // of the scene

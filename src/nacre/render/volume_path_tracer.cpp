@@ -13,8 +13,8 @@ namespace {
 
 // The finest the distance grid gets: 128 cells along the longest side are about 10 MB.
 constexpr int max_grid_cells = 128;
-// Looking for chains costs as much as hundreds of collisions; they carry a tenth of the light or
-// less. Deeper in free paths than about 12 they carry nothing that could be seen.
+// Looking for chains costs dozens of rays, for light that has crossed the matter and was then
+// reflected. Not tuned.
 constexpr float most_chain_chance = 0.2f;
 // Cells much smaller than a mean free path tell the walk nothing.
 constexpr float cell_in_free_paths = 0.5f;
