@@ -166,12 +166,12 @@ void print_plain(const ordered_json& json, int indent = 0) {
     }
 }
 
-struct Options {
+struct InfoArguments {
     std::string file;
     bool json = false;
 };
 
-int run(const Options& o) {
+int run(const InfoArguments& o) {
     const std::filesystem::path file = o.file;
     const ordered_json json = has_image_extension(file)    ? describe_image(file)
                               : file.extension() == ".xml" ? describe_scene(file)
@@ -186,7 +186,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_info(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<InfoArguments>();
     app.add_option("file", o->file, "scene (.xml), mesh or image")->required();
     app.add_flag("--json", o->json, "for programs");
     return [o] { return run(*o); };
