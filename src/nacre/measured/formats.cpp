@@ -12,7 +12,11 @@
 namespace nacre {
 // Each format's line: the function NAME_format() of its own file describes it. The first that
 // recognises a file reads it.
-#define NACRE_MEASURED_FORMATS(X) X(merl)
+// clang-format off
+#define NACRE_MEASURED_FORMATS(X) \
+    X(merl)                       \
+    X(rgl)
+// clang-format on
 
 #define NACRE_DECLARE_FORMAT(name) const MeasuredFormat& name##_format();
 NACRE_MEASURED_FORMATS(NACRE_DECLARE_FORMAT)
