@@ -15,7 +15,12 @@ namespace nacre {
 // clang-format off
 #define NACRE_MEASURED_FORMATS(X) \
     X(merl)                       \
-    X(rgl)
+    X(rgl)                        \
+    X(klems)                      \
+    X(cornell)                    \
+    X(alta)                       \
+    X(astm)                       \
+    X(csv)
 // clang-format on
 
 #define NACRE_DECLARE_FORMAT(name) const MeasuredFormat& name##_format();
