@@ -1,6 +1,7 @@
 #include "nacre/measured/marginal_warp.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace nacre {
@@ -30,10 +31,10 @@ float lerp(float a, float b, float t) { return a + t * (b - a); }
 /// The last patch of 0..patches-1 that begins at or below `target`, and holds anything.
 template <class Cumulative>
 int find_patch(int patches, float target, Cumulative&& begin) {
-    int low = 0, high = patches;
-    while (high - low > 1) {
-        const int middle = (low + high) / 2;
-        (begin(middle) <= target ? low : high) = middle;
+    int low = 0;
+    for (unsigned step = std::bit_ceil(unsigned(patches)) / 2; step > 0; step /= 2) {
+        const int next = std::min(low + int(step), patches - 1);
+        low = begin(next) <= target ? next : low;
     }
     while (low > 0 && begin(low + 1) <= begin(low)) --low;
     return low;
@@ -44,7 +45,8 @@ int find_patch(int patches, float target, Cumulative&& begin) {
 float solve(float a, float b, float mass) {
     const float root = std::sqrt(std::max(a * a + 2.f * mass * (b - a), 0.f));
     const float t = 2.f * mass / std::max(a + root, 1e-30f);
-    return std::clamp(t, 0.f, 1.f);
+    // Off the ends where the density is 0: nobody can divide by it.
+    return std::clamp(t, a > 0.f ? 0.f : 1e-6f, b > 0.f ? 1.f : 0.999999f);
 }
 float integral(float a, float b, float t) { return t * (a + 0.5f * t * (b - a)); }
 
@@ -120,60 +122,74 @@ MarginalWarp::MarginalWarp(int width, int height, std::vector<float> values)
     }
 }
 
-float MarginalWarp::mixed(const std::vector<float>& table, std::size_t stride, std::size_t at,
-                          const SliceMix& mix) const {
-    float sum = 0.f;
-    for (int k = 0; k < mix.count; ++k) sum += mix.weight[k] * table[mix.slice[k] * stride + at];
-    return sum;
-}
+/// The tables of up to N slices as one: mixtures of their entries. Weights beyond those of `mix` are
+/// 0, so that loops have a fixed length.
+template <int N>
+struct MarginalWarp::Slices {
+    const float *values[N], *along[N], *rows[N];
+    float weight[N];
+    int width;
 
-MarginalWarp::Point MarginalWarp::sample(float u, float v, const SliceMix& mix) const {
-    const std::size_t slice = std::size_t(width_) * height_, w = std::size_t(width_);
-    const auto up_to_row = [&](int y) { return mixed(rows_, height_, y, mix); };
-    const auto along = [&](std::size_t y, int x) { return mixed(along_, slice, y * w + x, mix); };
-    const auto value = [&](std::size_t y, int x) { return mixed(values_, slice, y * w + x, mix); };
+    Slices(const MarginalWarp& w, const SliceMix& mix) : width(w.width_) {
+        const std::size_t size = std::size_t(w.width_) * w.height_;
+        for (int k = 0; k < N; ++k) {
+            values[k] = w.values_.data() + mix.slice[k] * size;
+            along[k] = w.along_.data() + mix.slice[k] * size;
+            rows[k] = w.rows_.data() + std::size_t(mix.slice[k]) * w.height_;
+            weight[k] = mix.weight[k];
+        }
+    }
+    float mixed(const float* const (&table)[N], int at) const {
+        float sum = 0.f;
+        for (int k = 0; k < N; ++k) sum += weight[k] * table[k][at];
+        return sum;
+    }
+    float up_to_row(int y) const { return mixed(rows, y); }
+    float up_to(int y, int x) const { return mixed(along, y * width + x); }
+    float value(int y, int x) const { return mixed(values, y * width + x); }
+};
 
-    const int y = find_patch(height_ - 1, v, up_to_row);
-    const float r0 = along(y, width_ - 1), r1 = along(y + 1, width_ - 1);
-    const float ty = solve(r0, r1, v - up_to_row(y));
+template <int N>
+MarginalWarp::Point MarginalWarp::sample_of(float u, float v, const SliceMix& mix) const {
+    const Slices<N> s(*this, mix);
+    const int y = find_patch(height_ - 1, v, [&](int i) { return s.up_to_row(i); });
+    const float r0 = s.up_to(y, width_ - 1), r1 = s.up_to(y + 1, width_ - 1);
+    const float ty = solve(r0, r1, v - s.up_to_row(y));
 
-    const auto up_to_column = [&](int x) { return lerp(along(y, x), along(y + 1, x), ty); };
+    const auto up_to_column = [&](int x) { return lerp(s.up_to(y, x), s.up_to(y + 1, x), ty); };
     const float target = u * lerp(r0, r1, ty);
     const int x = find_patch(width_ - 1, target, up_to_column);
-    const float c0 = lerp(value(y, x), value(y + 1, x), ty);
-    const float c1 = lerp(value(y, x + 1), value(y + 1, x + 1), ty);
+    const float c0 = lerp(s.value(y, x), s.value(y + 1, x), ty);
+    const float c1 = lerp(s.value(y, x + 1), s.value(y + 1, x + 1), ty);
     const float tx = solve(c0, c1, target - up_to_column(x));
-
     return {(float(x) + tx) / float(width_ - 1), (float(y) + ty) / float(height_ - 1),
             lerp(c0, c1, tx) * float(width_ - 1) * float(height_ - 1)};
 }
 
-MarginalWarp::Point MarginalWarp::invert(float px, float py, const SliceMix& mix) const {
+template <int N>
+MarginalWarp::Point MarginalWarp::invert_of(float px, float py, const SliceMix& mix) const {
+    const Slices<N> s(*this, mix);
     const Place ix(px, width_), iy(py, height_);
-    const std::size_t slice = std::size_t(width_) * height_;
-    const std::size_t row = std::size_t(iy.patch) * width_, at = row + ix.patch;
-    // Everything of the two rows in one pass over the slices.
-    float v00 = 0, v10 = 0, v01 = 0, v11 = 0, a0 = 0, a1 = 0, r0 = 0, r1 = 0, below = 0;
-    for (int k = 0; k < mix.count; ++k) {
-        const float weight = mix.weight[k];
-        const float* v = values_.data() + mix.slice[k] * slice + at;
-        const float* a = along_.data() + mix.slice[k] * slice;
-        v00 += weight * v[0];
-        v10 += weight * v[1];
-        v01 += weight * v[width_];
-        v11 += weight * v[width_ + 1];
-        a0 += weight * a[at];
-        a1 += weight * a[at + width_];
-        r0 += weight * a[row + width_ - 1];
-        r1 += weight * a[row + 2 * width_ - 1];
-        below += weight * rows_[mix.slice[k] * std::size_t(height_) + iy.patch];
-    }
-    const float c0 = lerp(v00, v01, iy.part), c1 = lerp(v10, v11, iy.part);
-    const float whole = lerp(r0, r1, iy.part);
-    const float up_to = lerp(a0, a1, iy.part) + integral(c0, c1, ix.part);
-    return {std::min(up_to / std::max(whole, 1e-30f), 1.f),
-            std::min(below + integral(r0, r1, iy.part), 1.f),
+    const int x = ix.patch, y = iy.patch;
+    const float c0 = lerp(s.value(y, x), s.value(y + 1, x), iy.part);
+    const float c1 = lerp(s.value(y, x + 1), s.value(y + 1, x + 1), iy.part);
+    const float r0 = s.up_to(y, width_ - 1), r1 = s.up_to(y + 1, width_ - 1);
+    const float along = lerp(s.up_to(y, x), s.up_to(y + 1, x), iy.part) + integral(c0, c1, ix.part);
+    return {std::min(along / std::max(lerp(r0, r1, iy.part), 1e-30f), 1.f),
+            std::min(s.up_to_row(y) + integral(r0, r1, iy.part), 1.f),
             lerp(c0, c1, ix.part) * float(width_ - 1) * float(height_ - 1)};
+}
+
+MarginalWarp::Point MarginalWarp::sample(float u, float v, const SliceMix& mix) const {
+    return mix.count == 1   ? sample_of<1>(u, v, mix)
+           : mix.count == 2 ? sample_of<2>(u, v, mix)
+                            : sample_of<4>(u, v, mix);
+}
+
+MarginalWarp::Point MarginalWarp::invert(float x, float y, const SliceMix& mix) const {
+    return mix.count == 1   ? invert_of<1>(x, y, mix)
+           : mix.count == 2 ? invert_of<2>(x, y, mix)
+                            : invert_of<4>(x, y, mix);
 }
 
 float MarginalWarp::density(float px, float py, const SliceMix& mix) const {

@@ -15,7 +15,7 @@
 
 namespace nacre {
 
-/// Up to four slices of a table and their weights, which sum to 1.
+/// Up to four slices of a table and their weights, which sum to 1; the weights beyond are 0.
 struct SliceMix {
     int count = 1;
     std::array<std::uint32_t, 4> slice{};
@@ -76,9 +76,12 @@ class MarginalWarp {
     int height() const { return height_; }
 
   private:
-    /// Mixtures of the tables' entries.
-    float mixed(const std::vector<float>& table, std::size_t stride, std::size_t at,
-                const SliceMix& mix) const;
+    template <int N>
+    struct Slices;
+    template <int N>
+    Point sample_of(float u, float v, const SliceMix& mix) const;
+    template <int N>
+    Point invert_of(float x, float y, const SliceMix& mix) const;
 
     int width_ = 0, height_ = 0;
     std::vector<float> values_;  ///< scaled so that the mean over patches sums to 1

@@ -204,22 +204,22 @@ bool RglMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) 
 void RglMeasured::for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const {
     const RglTables& t = brdf_.tables();
     std::vector<double> value(std::size_t(info_.channels));
-    std::vector<float> found(value.size());
     std::size_t slice = 0;
     for (const float phi : t.incidence.slow())
         for (const float theta : t.incidence.fast()) {
             const Vec3d wi = direction(theta, phi);
             for (int y = 0; y < t.height; ++y)
                 for (int x = 0; x < t.width; ++x) {
-                    const Vec3d wo(brdf_.node_direction(Vec3f(wi), slice, x, y));
-                    const bool above = brdf_.eval(Vec3f(wi), Vec3f(wo), found);
+                    const RglBrdf::Node node = brdf_.node(Vec3f(wi), slice, x, y);
+                    const bool above = node.direction.z > 0.f;
                     bool negative = false;
+                    const float* stored =
+                        t.spectra.data() + ((slice * t.height + y) * t.width + x) * value.size();
                     for (std::size_t c = 0; c < value.size(); ++c) {
-                        value[c] = above ? double(found[c]) / wo.z : 0.;
-                        const std::size_t node = (slice * t.height + y) * t.width + x;
-                        negative |= t.spectra[node * value.size() + c] < 0.f;
+                        value[c] = above ? double(stored[c]) * node.factor / node.direction.z : 0.;
+                        negative |= stored[c] < 0.f;
                     }
-                    visit({wi, wo,
+                    visit({wi, Vec3d(node.direction),
                            !above     ? SampleState::missing
                            : negative ? SampleState::negative
                                       : SampleState::good,

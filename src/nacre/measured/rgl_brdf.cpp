@@ -9,7 +9,9 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-float theta_of(const Vec3f& w) { return std::atan2(std::hypot(w.x, w.y), w.z); }
+/// Of a unit vector, right near the normal as well, where its z has no digits left.
+float sin_theta_of(const Vec3f& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
+float theta_of(const Vec3f& w) { return std::atan2(sin_theta_of(w), w.z); }
 float phi_of(const Vec3f& w) { return w.x == 0.f && w.y == 0.f ? 0.f : std::atan2(w.y, w.x); }
 float to_unit_theta(float theta) { return std::sqrt(theta * (2.f / pi)); }
 float to_unit_phi(float phi) {
@@ -65,9 +67,16 @@ RglBrdf::Given RglBrdf::place(const Vec3f& given) const {
 
 RglBrdf::Half RglBrdf::half_of(const Given& g, const Vec3f& other) const {
     const Vec3f h = normalize(g.w + Vec3f(other.x * g.sign_x, other.y * g.sign_y, other.z));
-    const float phi = phi_of(h), sin_theta = std::hypot(h.x, h.y);
+    const float phi = phi_of(h), sin_theta = sin_theta_of(h);
     return {to_unit_theta(std::atan2(sin_theta, h.z)), to_unit_phi(isotropic_ ? phi - g.phi : phi),
             sin_theta, dot(g.w, h)};
+}
+
+float RglBrdf::factor(const Given& g, float x, float y) const {
+    if (!t_.jacobian) return 1.f;
+    const SliceMix one;
+    return t_.ndf.eval(x, y, one) /
+           (4.f * t_.sigma.eval(to_unit_theta(g.theta), to_unit_phi(g.phi), one));
 }
 
 bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out) const {
@@ -78,12 +87,7 @@ bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out)
     const float px = at.x * float(t_.width - 1), py = at.y * float(t_.height - 1);
     const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
     const float tx = px - float(x), ty = py - float(y);
-    float scale = 1.f;
-    if (t_.jacobian) {
-        const SliceMix one;
-        scale = t_.ndf.eval(h.x, h.y, one) /
-                (4.f * t_.sigma.eval(to_unit_theta(g.theta), to_unit_phi(g.phi), one));
-    }
+    const float scale = factor(g, h.x, h.y);
     const std::size_t n = std::size_t(t_.channels), row = std::size_t(t_.width) * n;
     std::fill_n(out.begin(), n, 0.f);
     for (int k = 0; k < g.mix.count; ++k) {
@@ -115,8 +119,8 @@ std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, floa
     const Vec3f w = direction_of(g, at.x, at.y, half);
     const float given_h = dot(g.w, half);
     if (!(w.z > 0.f && given_h > 0.f)) return std::nullopt;
-    return Sample{
-        w, bright.density * at.density * to_solid_angle(at.x, std::hypot(half.x, half.y), given_h)};
+    return Sample{w,
+                  bright.density * at.density * to_solid_angle(at.x, sin_theta_of(half), given_h)};
 }
 
 float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
@@ -128,14 +132,15 @@ float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
            to_solid_angle(h.x, h.sin_theta, h.given_h);
 }
 
-Vec3f RglBrdf::node_direction(const Vec3f& given, std::size_t slice, int x, int y) const {
+RglBrdf::Node RglBrdf::node(const Vec3f& given, std::size_t slice, int x, int y) const {
     Given g = place(given);
     g.mix = SliceMix{};
     g.mix.slice[0] = std::uint32_t(slice);
     const auto at = t_.vndf.sample(std::min(float(x) / float(t_.width - 1), 0.9999999f),
                                    std::min(float(y) / float(t_.height - 1), 0.9999999f), g.mix);
     Vec3f half;
-    return direction_of(g, at.x, at.y, half);
+    const Vec3f direction = direction_of(g, at.x, at.y, half);
+    return {direction, factor(g, at.x, at.y)};
 }
 
 }  // namespace nacre

@@ -53,8 +53,12 @@ class RglBrdf {
     float pdf(const Vec3f& given, const Vec3f& other) const;
 
     const RglTables& tables() const { return t_; }
-    /// The direction that a node (x, y) of the spectra stands for; may be below the horizon.
-    Vec3f node_direction(const Vec3f& given, std::size_t slice, int x, int y) const;
+    /// What a node (x, y) of a slice's spectra stands for.
+    struct Node {
+        Vec3f direction;  ///< the other one; may be below the horizon
+        float factor;     ///< spectra times this are f cos
+    };
+    Node node(const Vec3f& given, std::size_t slice, int x, int y) const;
 
   private:
     struct Given;
@@ -62,6 +66,7 @@ class RglBrdf {
     Given place(const Vec3f& given) const;
     Half half_of(const Given& g, const Vec3f& other) const;
     Vec3f direction_of(const Given& g, float x, float y, Vec3f& half) const;
+    float factor(const Given& g, float x, float y) const;
 
     RglTables t_;
     bool isotropic_;
