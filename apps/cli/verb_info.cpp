@@ -154,12 +154,12 @@ ordered_json describe_scene(const std::filesystem::path& file) {
             {"warnings", warnings_of(scene, plan_of(scene))}};
 }
 
-struct Options {
+struct InfoArguments {
     std::string file;
     bool json = false;
 };
 
-int run(const Options& o) {
+int run(const InfoArguments& o) {
     const std::filesystem::path file = o.file;
     print_json(has_image_extension(file)      ? describe_image(file)
                : recognise_measured(file)     ? describe_measured(file)
@@ -173,7 +173,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_info(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<InfoArguments>();
     app.add_option("file", o->file, "scene (.xml), mesh, image or measured reflectance")
         ->required();
     app.add_flag("--json", o->json, "for programs");
