@@ -84,7 +84,9 @@ bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out)
     const Given g = place(given);
     const Half h = half_of(g, other);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
-    const float px = at.x * float(t_.width - 1), py = at.y * float(t_.height - 1);
+    // Directions that are no numbers must not lead out of the table.
+    const auto place_on = [](float u, int nodes) { return u > 0.f ? u * float(nodes - 1) : 0.f; };
+    const float px = place_on(at.x, t_.width), py = place_on(at.y, t_.height);
     const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
     const float tx = px - float(x), ty = py - float(y);
     const float scale = factor(g, h.x, h.y);
