@@ -38,7 +38,8 @@ TEST(Klems, PatchesOfLightAndExit) {
             for (int out = 0; out < 5; ++out) {
                 const int k = rows ? in * 5 + out : out * 5 + in;
                 const auto at = [](int patch) {
-                    return patch ? test::towards(50., 90. * (patch - 1) + 20.)
+                    // Near the edges of patches, which reach 45 degrees to both sides.
+                    return patch ? test::towards(50., 90. * (patch - 1) + (patch % 2 ? 43. : -43.))
                                  : test::towards(10., 77.);
                 };
                 const Vec3d i = at(in), o = at(out);

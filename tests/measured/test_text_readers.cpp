@@ -76,6 +76,21 @@ TEST(TextReaders, BetweenMeasurementsValuesAreSmooth) {
         ASSERT_NEAR(near[0], v[0], 1e-3);
     }
     EXPECT_LT(sum / 2000., 0.02);
+    // No steps, as the nearest sample alone would make.
+    double before = value_at(*m, towards(33., 0.), towards(0., 50.))[0];
+    for (double to = 0.; to < 78.; to += 0.02) {
+        const double now = value_at(*m, towards(33., 0.), towards(to, 50.))[0];
+        ASSERT_NEAR(now, before, 2e-3) << to;
+        before = now;
+    }
+}
+
+/// Half vector and difference angle do not tell a pair from the same one the other way round: data
+/// that are not reciprocal are not made so.
+TEST(TextReaders, LightAndViewAreNotExchanged) {
+    const auto m = parsed("theta_i,phi_i,theta_o,phi_o,y\n30,0,60,0,1\n60,0,30,0,2\n");
+    EXPECT_EQ(value_at(*m, towards(30., 0.), towards(60., 0.)), (std::vector<double>{1.}));
+    EXPECT_EQ(value_at(*m, towards(60., 0.), towards(30., 0.)), (std::vector<double>{2.}));
 }
 
 TEST(TextReaders, AltaNamesItsCoordinates) {
