@@ -19,7 +19,7 @@ constexpr int nh = MerlBrdf::theta_h_count, nd = MerlBrdf::theta_d_count,
 constexpr std::size_t node_count = std::size_t(nh) * nd * np;
 constexpr std::size_t header_size = 3 * sizeof(std::int32_t);
 constexpr std::size_t file_size = header_size + 3 * node_count * sizeof(double);
-constexpr double scale[3] = {1. / 1500., 1.15 / 1500., 1.66 / 1500.};
+constexpr auto& scale = MerlBrdf::scale;
 
 std::size_t position(int h, int d, int p) { return (std::size_t(h) * nd + d) * np + p; }
 
@@ -105,21 +105,42 @@ std::optional<Vec3d> MerlBrdf::node(int theta_h, int theta_d, int phi_d) const {
     return Vec3d(v);
 }
 
-std::optional<Vec3d> MerlBrdf::eval(const Vec3d& wi, const Vec3d& wo, MerlLookup lookup) const {
-    if (!(wi.z > 0. && wo.z > 0.)) return std::nullopt;
-    const HalfAngle a = to_half_angle(wi, wo);
-    const double pi = std::numbers::pi;
-    double phi = a.phi_d < 0. ? a.phi_d + pi : a.phi_d;
-    if (phi >= pi) phi -= pi;
-    const double at[3] = {std::sqrt(a.theta_h / (0.5 * pi)) * nh, a.theta_d / (0.5 * pi) * nd,
-                          phi / pi * np};
-    const int count[3] = {nh, nd, np};
+namespace {
+
+constexpr int node_counts[3] = {nh, nd, np};
+
+/// Half-angle coordinates in units of nodes: the nodes below, and how far beyond them.
+struct MerlPlace {
     int below[3];
     double part[3];
-    for (int k = 0; k < 3; ++k) {
-        below[k] = std::clamp(int(at[k]), 0, count[k] - 1);
-        part[k] = std::clamp(at[k] - below[k], 0., 1.);
+
+    MerlPlace(const Vec3d& wi, const Vec3d& wo) {
+        const HalfAngle a = to_half_angle(wi, wo);
+        const double pi = std::numbers::pi;
+        double phi = a.phi_d < 0. ? a.phi_d + pi : a.phi_d;
+        if (phi >= pi) phi -= pi;
+        const double at[3] = {std::sqrt(a.theta_h / (0.5 * pi)) * nh, a.theta_d / (0.5 * pi) * nd,
+                              phi / pi * np};
+        for (int k = 0; k < 3; ++k) {
+            below[k] = std::clamp(int(at[k]), 0, node_counts[k] - 1);
+            part[k] = std::clamp(at[k] - below[k], 0., 1.);
+        }
     }
+};
+
+}  // namespace
+
+MerlNode MerlBrdf::node_below(const Vec3d& wi, const Vec3d& wo) {
+    const MerlPlace at(wi, wo);
+    const auto [h, d, p] = at.below;
+    return {h, d, p, position(h, d, p)};
+}
+
+std::optional<Vec3d> MerlBrdf::eval(const Vec3d& wi, const Vec3d& wo, MerlLookup lookup) const {
+    if (!(wi.z > 0. && wo.z > 0.)) return std::nullopt;
+    const MerlPlace at(wi, wo);
+    const auto& below = at.below;
+    const auto& part = at.part;
     if (lookup == MerlLookup::nearest) return node(below[0], below[1], below[2]);
     Vec3d sum;
     double found = 0.;
