@@ -4,6 +4,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/measured/factor/textures.h"
 
 namespace nacre {
 
@@ -65,6 +66,8 @@ std::unique_ptr<Target> make_target(const std::string& text) {
     if (path.extension() == ".binary")
         return std::make_unique<MerlTarget>(read_merl(path), path.filename().string());
     std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return std::make_unique<FactoredBrdf>(read_factors(path));
     if (std::filesystem::is_regular_file(path, ignored))
         throw InputError(fmt::format(
             "{}: only BRDFs of MERL's format can be read, whose names end in .binary", text));

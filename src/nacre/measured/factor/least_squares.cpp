@@ -17,8 +17,9 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 // Of a term that is new, alone; of all together, at most, and until one of them lowers the square of
 // the error by less than this share.
-constexpr int first_sweeps = 12, most_sweeps = 60;
+constexpr int first_sweeps = 12, most_sweeps = 40;
 constexpr double enough = 1e-3;
+constexpr double exact = 1e-13;  // of the square of the matrix: nothing is left to better
 constexpr int random_starts = 2;
 
 }  // namespace
@@ -27,53 +28,68 @@ struct LeastSquaresFactors::State {
     int n = 0;
     bool nonnegative = false;
     std::vector<VectorXd> g, h;
-    RowMajor matrix;  ///< 0 where not known
-    RowMajor rest;    ///< what the terms leave of it; 0 where not known
-    RowMajor mask;    ///< 1 where known; empty if that is everywhere
+    RowMajor matrix;            ///< 0 where not known
+    RowMajor rest;              ///< what the terms leave of it; 0 where not known
+    RowMajor mask;              ///< 1 where known: of the rows that are not known whole
+    std::vector<int> mask_row;  ///< where a row stands in it; -1: known whole
     double size2 = 0.;
 
+    bool whole(int k) const { return mask_row[k] < 0; }
     double bounded(double x) const { return nonnegative ? std::max(x, 0.) : x; }
+
+    /// Takes g change^T off the rest. The next pass over the rest does it: passes are what takes
+    /// the time.
+    struct Pending {
+        VectorXd g, change;
+    };
+    Pending pending;
+
+    /// row -= x^T, at what is known of it.
+    void subtract(int k, double factor, const VectorXd& x) {
+        if (whole(k))
+            rest.row(k) -= factor * x.transpose();
+        else
+            rest.row(k) -= factor * x.transpose().cwiseProduct(mask.row(mask_row[k]));
+    }
+    void settle(int k) {
+        if (pending.g.size() && pending.g[k] != 0.) subtract(k, pending.g[k], pending.change);
+    }
+    void settle() {
+        for (int k = 0; k < n; ++k) settle(k);
+        pending = {};
+    }
+    double rest2() {
+        settle();
+        return rest.squaredNorm();
+    }
 
     /// Sets one term to the best for all others.
     void update(std::size_t j) {
         VectorXd above = VectorXd::Zero(n), below = VectorXd::Zero(n);
-        const bool all = mask.size() == 0;
         const VectorXd h2 = h[j].cwiseAbs2();
-        const double whole = h2.sum();
+        const double all = h2.sum();
         double g2 = 0.;
         for (int k = 0; k < n; ++k) {
-            auto row = rest.row(k);
-            const double weight = all ? whole : mask.row(k).dot(h2);
+            settle(k);
+            const double weight = whole(k) ? all : mask.row(mask_row[k]).dot(h2);
             const double old = g[j][k];
-            const double now = weight > 0. ? bounded(old + row.dot(h[j]) / weight) : old;
-            const double change = now - old;
-            if (change != 0.) {
-                if (all)
-                    row -= change * h[j].transpose();
-                else
-                    row -= change * h[j].transpose().cwiseProduct(mask.row(k));
-            }
+            const double now = weight > 0. ? bounded(old + rest.row(k).dot(h[j]) / weight) : old;
+            if (now != old) subtract(k, now - old, h[j]);
             g[j][k] = now;
             if (now == 0.) continue;
-            above += now * row.transpose();
-            if (all)
+            above += now * rest.row(k).transpose();
+            if (whole(k))
                 g2 += now * now;
             else
-                below += now * now * mask.row(k).transpose();
+                below += now * now * mask.row(mask_row[k]).transpose();
         }
-        if (all) below.setConstant(g2);
-        VectorXd change(n);
+        below.array() += g2;
+        pending.g = g[j];
+        pending.change.resize(n);
         for (int l = 0; l < n; ++l) {
             const double now = below[l] > 0. ? bounded(h[j][l] + above[l] / below[l]) : h[j][l];
-            change[l] = now - h[j][l];
+            pending.change[l] = now - h[j][l];
             h[j][l] = now;
-        }
-        for (int k = 0; k < n; ++k) {
-            if (g[j][k] == 0.) continue;
-            if (all)
-                rest.row(k) -= g[j][k] * change.transpose();
-            else
-                rest.row(k) -= g[j][k] * change.transpose().cwiseProduct(mask.row(k));
         }
         balance(j);
     }
@@ -87,6 +103,7 @@ struct LeastSquaresFactors::State {
     }
     /// A new term that begins as the row of the rest that holds the most.
     void add() {
+        settle();
         int most = 0;
         double largest = -1.;
         for (int k = 0; k < n; ++k) {
@@ -101,10 +118,10 @@ struct LeastSquaresFactors::State {
         for (int i = 0; i < first_sweeps; ++i) update(g.size() - 1);
     }
     void improve() {
-        double before = rest.squaredNorm();
-        for (int i = 0; i < most_sweeps && before > 1e-28 * size2; ++i) {
+        double before = rest2();
+        for (int i = 0; i < most_sweeps && before > exact * size2; ++i) {
             for (std::size_t j = 0; j < g.size(); ++j) update(j);
-            const double now = rest.squaredNorm();
+            const double now = rest2();
             if (now >= (1. - enough) * before) break;
             before = now;
         }
@@ -119,10 +136,12 @@ struct LeastSquaresFactors::State {
         // The best multiple of the sum.
         RowMajor sum = RowMajor::Zero(n, n);
         for (int j = 0; j < terms; ++j) sum.noalias() += g[j] * h[j].transpose();
-        if (mask.size()) sum = sum.cwiseProduct(mask);
+        for (int k = 0; k < n; ++k)
+            if (!whole(k)) sum.row(k) = sum.row(k).cwiseProduct(mask.row(mask_row[k]));
         const double scale = sum.cwiseProduct(matrix).sum() / sum.squaredNorm();
         for (VectorXd& f : g) f *= scale;
         rest = matrix - scale * sum;
+        pending = {};
     }
 };
 
@@ -136,12 +155,14 @@ LeastSquaresFactors::LeastSquaresFactors(std::span<const double> matrix,
     s.matrix = Eigen::Map<const RowMajor>(matrix.data(), n, n);
     s.rest = s.matrix;
     s.size2 = s.matrix.squaredNorm();
-    if (!known.empty())
-        s.mask =
-            Eigen::Map<
-                const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-                known.data(), n, n)
-                .cast<double>();
+    s.mask_row.assign(n, -1);
+    int partial = 0;
+    const auto row = [&](int k) { return known.subspan(std::size_t(k) * n, n); };
+    for (int k = 0; k < n && !known.empty(); ++k)
+        if (std::ranges::find(row(k), 0) != row(k).end()) s.mask_row[k] = partial++;
+    s.mask.resize(partial, n);
+    for (int k = 0; k < n; ++k)
+        for (int l = 0; l < n && s.mask_row[k] >= 0; ++l) s.mask(s.mask_row[k], l) = row(k)[l];
 }
 
 LeastSquaresFactors::~LeastSquaresFactors() = default;
@@ -154,10 +175,11 @@ void LeastSquaresFactors::grow_to(int terms) {
     if (!s.nonnegative || terms == 1) return;
     for (int i = 0; i < random_starts; ++i) {
         auto g = s.g, h = s.h;
+        s.settle();
         RowMajor rest = s.rest;
         s.begin_at_random(terms, i);
         s.improve();
-        if (s.rest.squaredNorm() < rest.squaredNorm()) continue;
+        if (s.rest2() < rest.squaredNorm()) continue;
         s.g = std::move(g);
         s.h = std::move(h);
         s.rest = std::move(rest);
@@ -172,7 +194,7 @@ FactorTerms LeastSquaresFactors::terms() const {
 }
 
 double LeastSquaresFactors::relative_error() const {
-    return std::sqrt(state_->rest.squaredNorm() / state_->size2);
+    return std::sqrt(state_->rest2() / state_->size2);
 }
 
 }  // namespace nacre

@@ -61,9 +61,15 @@ template <class Operator>
 std::optional<EigenPairs> largest_eigenvalues(Operator& op, int terms) {
     const int n = int(op.rows());
     Spectra::SymEigsSolver<Operator> solver(op, terms, std::min(n, std::max(2 * terms + 10, 20)));
-    solver.init();
-    const auto found = solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
-                                      Spectra::SortRule::LargestMagn);
+    Eigen::Index found = 0;
+    try {
+        solver.init();
+        found = solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
+                               Spectra::SortRule::LargestMagn);
+    } catch (const std::exception&) {
+        // A matrix of lower rank than what is asked for may leave it without directions to go on.
+        return std::nullopt;
+    }
     if (found < terms || solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
     return EigenPairs{solver.eigenvalues(), solver.eigenvectors()};
 }
