@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-struct Options {
+struct FactorArguments {
     std::vector<std::string> targets;
     std::string terms = "1..8", parameters = "io", spheres;
     int side = 32;
@@ -60,7 +60,7 @@ FactorParameters parse_parameters(const std::string& text) {
     throw InputError("--param: " + unknown_name("parameterisation", text, {"io", "half"}));
 }
 
-FactorOptions factor_options(const Options& o) {
+FactorOptions factor_options(const FactorArguments& o) {
     if (o.nonnegative && o.normalised)
         throw InputError("give either --nonnegative or --normalised");
     FactorOptions r;
@@ -76,7 +76,7 @@ FactorOptions factor_options(const Options& o) {
 
 /// Which numbers of terms get a sphere: as asked for, else 1, 2, 4 and 8 of those that there are,
 /// else the first four of them.
-std::vector<std::size_t> sphere_terms(const Options& o, const std::vector<int>& terms) {
+std::vector<std::size_t> sphere_terms(const FactorArguments& o, const std::vector<int>& terms) {
     std::vector<std::size_t> r;
     const auto position = [&](int j) {
         return std::size_t(std::ranges::find(terms, j) - terms.begin());
@@ -193,7 +193,7 @@ std::string folder_name(const std::string& target) {
     return name;
 }
 
-int run(const Options& o) {
+int run(const FactorArguments& o) {
     const FactorOptions options = factor_options(o);
     const std::vector<std::size_t> spheres = sphere_terms(o, options.terms);
     if (o.output.empty() && !o.spheres.empty()) throw InputError("--spheres needs -o");
@@ -237,7 +237,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_factor(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<FactorArguments>();
     app.add_option("brdf", o->targets,
                    "a measured BRDF, a folder of factors, or a model with settings, 'ggx "
                    "alpha=0.2'; several are drawn beside one another")

@@ -42,11 +42,11 @@ Scaled scale(const FactorMatrix& m, int channel, const FactorOptions& o) {
     s.values = m.values[channel];
     if (o.logarithmic) {
         double sum = 0.;
-        for (double v : s.values) sum += v;
+        for (double v : s.values) sum += std::max(v, 0.);
         const double mean = sum / double(m.size() - m.below - m.missing);
         s.floor = std::max(1e-3 * mean, 1e-30);
         for (std::size_t i = 0; i < s.values.size(); ++i)
-            s.values[i] = m.has(i) ? std::log(s.values[i] + s.floor) : 0.;
+            s.values[i] = m.has(i) ? std::log(std::max(s.values[i], 0.) + s.floor) : 0.;
     }
     if (!o.weighted) return s;
     for (int k = 0; k < n; ++k) {

@@ -41,7 +41,7 @@ FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid) {
             m.known[at] = 1;
             for (int c = 0; c < 3; ++c) {
                 m.values[c][at] = (*value)[c];
-                if (!((*value)[c] >= 0.) || !std::isfinite((*value)[c])) wrong = true;
+                if (!std::isfinite((*value)[c])) wrong = true;
                 if ((*value)[c] > 0.) bright = true;
             }
             if (value->x != value->y || value->x != value->z) coloured = true;
@@ -54,10 +54,8 @@ FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid) {
     if (m.below + m.missing == m.size())
         throw InputError(fmt::format("{}: has no value at any of the directions", target.name()));
     if (wrong)
-        throw InputError(
-            fmt::format("{}: has values that are negative or not finite; it cannot be "
-                        "factored",
-                        target.name()));
+        throw InputError(fmt::format("{}: has values that are not finite; it cannot be factored",
+                                     target.name()));
     if (!bright)
         throw InputError(fmt::format("{}: is black; there is nothing to factor", target.name()));
     if (m.below + m.missing == 0) m.known.clear();

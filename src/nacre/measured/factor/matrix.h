@@ -25,7 +25,8 @@ struct FactorMatrix {
 };
 
 /// Asks the target for each pair once. Throws InputError: a side that is not from 2 to 64, a target
-/// without a value, a black one, one with values that are negative or not finite.
+/// without a value, one without a value above 0, one with values that are not finite. Negative ones,
+/// which measurements and colours outside sRGB have, stay as they are.
 FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid);
 
 }  // namespace nacre
