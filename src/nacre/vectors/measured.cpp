@@ -3,6 +3,8 @@
 #include "nacre/math/error.h"
 #include "nacre/measured/factor/matrix.h"
 #include "nacre/measured/factor/partial_svd.h"
+#include "nacre/measured/half_angle.h"
+#include "nacre/measured/merl.h"
 #include "nacre/vectors/file.h"
 
 namespace nacre {

@@ -57,7 +57,8 @@ FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid) {
         throw InputError(fmt::format("{}: has values that are not finite; it cannot be factored",
                                      target.name()));
     if (!bright)
-        throw InputError(fmt::format("{}: is black; there is nothing to factor", target.name()));
+        throw InputError(
+            fmt::format("{}: has no value above 0; there is nothing to factor", target.name()));
     if (m.below + m.missing == 0) m.known.clear();
     if (!coloured)
         for (int c : {1, 2}) std::vector<double>().swap(m.values[c]);
