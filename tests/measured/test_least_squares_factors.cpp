@@ -123,7 +123,8 @@ TEST(LeastSquaresFactors, RowsOfWhichNothingIsKnown) {
     LeastSquaresFactors factors(m, known, factor_size, false);
     factors.grow_to(2);
     EXPECT_LT(factors.relative_error(), 1e-6);
-    for (double x : factors.terms().g[0]) EXPECT_TRUE(std::isfinite(x));
+    const FactorTerms found = factors.terms();
+    for (double x : found.g[0]) EXPECT_TRUE(std::isfinite(x));
 }
 
 }  // namespace nacre

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <optional>
 
+#include "nacre/math/random.h"
+
 namespace nacre {
 namespace {
 
@@ -56,7 +58,16 @@ struct EigenPairs {
     MatrixXd vectors;
 };
 
-/// The eigenvalues of the largest size; nothing if they did not converge.
+// Of what is checked: departures from 1 and 0, or of a product from the largest singular value.
+constexpr double allowed = 1e-8;
+
+bool is_orthonormal(const MatrixXd& v) {
+    const double off =
+        (v.transpose() * v - MatrixXd::Identity(v.cols(), v.cols())).cwiseAbs().maxCoeff();
+    return off <= allowed;
+}
+
+/// The eigenvalues of the largest size; nothing if they were not found.
 template <class Operator>
 std::optional<EigenPairs> largest_eigenvalues(Operator& op, int terms) {
     const int n = int(op.rows());
@@ -67,11 +78,37 @@ std::optional<EigenPairs> largest_eigenvalues(Operator& op, int terms) {
         found = solver.compute(Spectra::SortRule::LargestMagn, most_restarts, tolerance,
                                Spectra::SortRule::LargestMagn);
     } catch (const std::exception&) {
-        // A matrix of lower rank than what is asked for may leave it without directions to go on.
         return std::nullopt;
     }
     if (found < terms || solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-    return EigenPairs{solver.eigenvalues(), solver.eigenvectors()};
+    EigenPairs r{solver.eigenvalues(), solver.eigenvectors()};
+    // The solver makes up directions where a matrix of low rank leaves none, and then says that it
+    // was successful.
+    if (!is_orthonormal(r.vectors)) return std::nullopt;
+    return r;
+}
+
+/// Whether these are singular values and vectors, and no larger value is left.
+bool is_svd_of(const View& m, const Eigen::VectorXd& sigma, const MatrixXd& u, const MatrixXd& v) {
+    const double scale = sigma[0];
+    if (!is_orthonormal(u) || !is_orthonormal(v)) return false;
+    const MatrixXd forward = m * v - u * sigma.asDiagonal();
+    const MatrixXd back = m.transpose() * u - v * sigma.asDiagonal();
+    if (!(forward.cwiseAbs().maxCoeff() <= allowed * scale) ||
+        !(back.cwiseAbs().maxCoeff() <= allowed * scale))
+        return false;
+    // The power method on what is left comes near its largest value from below.
+    Random random(stream_key(31, m.rows()));
+    Eigen::VectorXd x(m.cols()), y;
+    for (double& value : x) value = random.next() - 0.5f;
+    double left = 0.;
+    for (int i = 0; i < 12; ++i) {
+        x /= std::max(x.norm(), 1e-300);
+        y = m * x - u * sigma.cwiseProduct(v.transpose() * x);
+        left = y.norm();
+        x = m.transpose() * y - v * sigma.cwiseProduct(u.transpose() * y);
+    }
+    return left <= sigma[sigma.size() - 1] * (1. + allowed) + allowed * scale;
 }
 
 Svd first_terms(Svd svd, int terms) {
@@ -103,21 +140,31 @@ Svd partial_svd(std::span<const double> matrix, int n, int terms) {
     terms = std::min(terms, n);
     if (4 * terms > n) return first_terms(full_svd(matrix, n), terms);
     const View m(matrix.data(), n, n);
+    Eigen::VectorXd sigma;
+    MatrixXd u, v;
     if (is_symmetric(matrix, n)) {
         Spectra::DenseSymMatProd<double, Eigen::Lower, Eigen::RowMajor> op(m);
-        const auto e = largest_eigenvalues(op, terms);
-        if (!e) return first_terms(full_svd(matrix, n), terms);
-        // A negative eigenvalue is a singular value whose two vectors are opposite.
-        const Eigen::VectorXd signs =
-            e->values.unaryExpr([](double x) { return x < 0. ? -1. : 1.; });
-        return to_svd(e->values.cwiseAbs(), e->vectors * signs.asDiagonal(), e->vectors);
+        if (auto e = largest_eigenvalues(op, terms)) {
+            // A negative eigenvalue is a singular value whose two vectors are opposite.
+            const auto sign = [](double x) { return x < 0. ? -1. : 1.; };
+            sigma = e->values.cwiseAbs();
+            v = std::move(e->vectors);
+            u = v * e->values.unaryExpr(sign).asDiagonal();
+        }
+    } else {
+        GramProduct op(m);
+        if (const auto e = largest_eigenvalues(op, terms)) {
+            // The square roots of small eigenvalues would be noise; M itself knows them better.
+            const Eigen::JacobiSVD<MatrixXd> svd(m * e->vectors,
+                                                 Eigen::ComputeThinU | Eigen::ComputeThinV);
+            sigma = svd.singularValues();
+            u = svd.matrixU();
+            v = e->vectors * svd.matrixV();
+        }
     }
-    GramProduct op(m);
-    const auto e = largest_eigenvalues(op, terms);
-    if (!e) return first_terms(full_svd(matrix, n), terms);
-    // The square roots of small eigenvalues would be noise; M itself knows them better.
-    const Eigen::JacobiSVD<MatrixXd> svd(m * e->vectors, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    return to_svd(svd.singularValues(), svd.matrixU(), e->vectors * svd.matrixV());
+    if (sigma.size() == 0 || !is_svd_of(m, sigma, u, v))
+        return first_terms(full_svd(matrix, n), terms);
+    return to_svd(sigma, u, v);
 }
 
 }  // namespace nacre
