@@ -37,10 +37,10 @@ MeasuredSurface::MeasuredSurface(std::unique_ptr<Measured> data) : data_(std::mo
         const auto part = [i](double step) {
             return float((i + 0.5) * step - std::floor((i + 0.5) * step));
         };
-        const Vec3d wi(
-            square_to_cosine_hemisphere(Vec2f{(i + 0.5f) / n, part(0.7548776662466927)}));
-        const Vec3d wo(
-            square_to_cosine_hemisphere(Vec2f{part(0.5698402909980532), part(0.3247179572447460)}));
+        const Vec3f wi =
+            square_to_cosine_hemisphere(Vec2f{(i + 0.5f) / n, part(0.7548776662466927)});
+        const Vec3f wo =
+            square_to_cosine_hemisphere(Vec2f{part(0.5698402909980532), part(0.3247179572447460)});
         without += !value(wi, wo, out);
     }
     black_ = double(without) / n;
