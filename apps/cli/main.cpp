@@ -35,6 +35,7 @@ constexpr Verb verbs[] = {
      set_up_profile},
     {"slab", "reflectance and transmittance of a stack of layers, by every method", set_up_slab},
     {"check", "check models against reference values and their claims", set_up_check},
+    {"measure", "measure the BRDF of microgeometry: a virtual gonioreflectometer", set_up_measure},
     {"info", "say what is in a scene, mesh or image file", set_up_info},
     {"merge", "put together what was rendered with other seeds or in parts", set_up_merge},
     {"diff", "compare two pictures", set_up_diff},
