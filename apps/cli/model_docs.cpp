@@ -165,7 +165,7 @@ std::string index_text() {
 }
 
 /// The BRDF over the viewer's angle, the light at three angles on the other side of the normal.
-Table lobe_table(const AnyModel& model) {
+Table model_lobe_table(const AnyModel& model) {
     constexpr double incidences[] = {0., 30., 60.};
     const auto in_plane = [](double degrees) {
         const double a = degrees * std::numbers::pi / 180.;
@@ -195,7 +195,7 @@ Table lobe_table(const AnyModel& model) {
 void write_pictures(const ModelDescription& m, const fs::path& folder,
                     const Invocation& invocation) {
     const std::string name(m.name);
-    draw_table(lobe_table(make_model(name)), folder / (name + "-lobe.svg"));
+    draw_table(model_lobe_table(make_model(name)), folder / (name + "-lobe.svg"));
     LoadOptions options;
     options.defines = {{"model", name}};
     const fs::path file = folder / "sphere.xml";

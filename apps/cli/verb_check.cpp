@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct CheckArguments {
     std::string model, vectors;
     std::uint64_t seed = 1;
     int samples = 40000, random_sets = CheckOptions().random_sets;
@@ -75,7 +75,7 @@ std::vector<CheckOutcome> check_model_aloud(const Evaluator& evaluator,
     return check_model(evaluator, options);
 }
 
-int check_models(const Options& o) {
+int check_models(const CheckArguments& o) {
     std::vector<const ModelDescription*> chosen;
     if (o.model == "all")
         chosen.assign(models().begin(), models().end());
@@ -101,7 +101,7 @@ int check_models(const Options& o) {
     return good ? success : failure;
 }
 
-int run(const Options& o) {
+int run(const CheckArguments& o) {
     if (o.model.empty() == o.vectors.empty())
         throw InputError("give the name of a model, 'all', or --vectors FILE");
     return o.model.empty() ? check_file(o.vectors) : check_models(o);
@@ -110,7 +110,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_check(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<CheckArguments>();
     app.add_option("model", o->model, "a reflectance model, or all");
     app.add_option("--vectors", o->vectors,
                    "JSON of reference vectors, of reflectance (exit code 1 beyond 1e-6) or "

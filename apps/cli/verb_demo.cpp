@@ -10,14 +10,14 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct DemoArguments {
     std::string output = "demo.png", size = "480x640";
     int spp = 0, threads = 0;
     double timeout = 45;
     bool quiet = false, no_denoise = false;
 };
 
-int run(const Options& o, const Invocation& invocation) {
+int run(const DemoArguments& o, const Invocation& invocation) {
     SaveOptions save;
     save.output = o.output;
     check_image_output(save.output);
@@ -41,7 +41,7 @@ int run(const Options& o, const Invocation& invocation) {
 }  // namespace
 
 Action set_up_demo(CLI::App& app, const Invocation& invocation) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<DemoArguments>();
     app.add_option("-o,--output", o->output, "picture: .png, .exr, .pfm or .hdr")
         ->capture_default_str();
     app.add_option("--size", o->size, "WIDTHxHEIGHT in pixels")->capture_default_str();

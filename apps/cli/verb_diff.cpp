@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct DiffArguments {
     std::string picture, reference, mask, error_map;
     double pixels_per_degree = flip_pixels_per_degree;
     bool json = false;
@@ -74,7 +74,7 @@ ordered_json describe(const Metric& m) {
     return r;
 }
 
-void print_json(const Result& r, const Options& o) {
+void print_json(const Result& r, const DiffArguments& o) {
     const Metrics& m = r.metrics;
     ordered_json percentiles = ordered_json::array();
     for (const auto& [percent, value] : m.percentiles)
@@ -118,7 +118,7 @@ void print_metric(const char* name, const Metric& m) {
     fmt::print("\n");
 }
 
-void print_plain(const Result& r, const Options& o) {
+void print_plain(const Result& r, const DiffArguments& o) {
     const Metrics& m = r.metrics;
     const auto side = [](const char* name, const std::string& file,
                          const std::array<double, 3>& mean, bool variance) {
@@ -155,7 +155,7 @@ void print_plain(const Result& r, const Options& o) {
         r.flip_hdr.mean);
 }
 
-int run(const Options& o) {
+int run(const DiffArguments& o) {
     if (!o.error_map.empty()) {
         check_image_output(o.error_map);
         refuse_input_as_output(o.error_map, {o.picture, o.reference, o.mask});
@@ -185,7 +185,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_diff(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<DiffArguments>();
     app.add_option("picture", o->picture, "image: .exr, .pfm, .hdr, .png, .jpg")->required();
     app.add_option("reference", o->reference, "image of the same size")->required();
     app.add_option("--mask", o->mask, "image whose green is above 0.5 where a pixel counts");

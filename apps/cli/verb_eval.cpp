@@ -14,7 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.;
 
-struct Options {
+struct EvalArguments {
     std::string model, wi, wo, output;
     std::vector<std::string> set;
     double nm = 550.;
@@ -43,7 +43,7 @@ Vec3d parse_direction(const std::string& text, const char* option) {
 
 /// The angles of incidence of a plot: that of --wi, or a few. A grazing lobe would dwarf the others
 /// in a polar plot.
-std::vector<double> incidences(const Options& o) {
+std::vector<double> incidences(const EvalArguments& o) {
     if (o.wi.empty())
         return o.lobe ? std::vector<double>{0., 30., 60.} : std::vector<double>{0., 30., 60., 80.};
     const Vec3d wi = parse_direction(o.wi, "--wi");
@@ -51,7 +51,7 @@ std::vector<double> incidences(const Options& o) {
     return {std::round(std::acos(wi.z) / degree * 1e6) / 1e6};
 }
 
-std::string title_of(const Options& o) {
+std::string title_of(const EvalArguments& o) {
     std::string title;
     for (std::string s : o.set) {
         if (const std::size_t at = s.find('='); at != s.npos) s.replace(at, 1, " = ");
@@ -62,7 +62,7 @@ std::string title_of(const Options& o) {
 }
 
 /// Albedo over the angle of incidence.
-Table albedo_table(const AnyModel& model, const Options& o) {
+Table albedo_table(const AnyModel& model, const EvalArguments& o) {
     Table t{title_of(o), {"theta_i_deg", "albedo"}, {}, PlotKind::curves, "albedo"};
     t.x_label = "angle of incidence / degrees";
     for (int i = 0; i <= 89; ++i) {
@@ -74,7 +74,7 @@ Table albedo_table(const AnyModel& model, const Options& o) {
 }
 
 /// Values in the plane of incidence, light at negative angles, viewer from -90 to 90 degrees.
-Table cut_table(const AnyModel& model, const Options& o, PlotKind kind) {
+Table cut_table(const AnyModel& model, const EvalArguments& o, PlotKind kind) {
     Table t{title_of(o),
             {"theta_o_deg"},
             {},
@@ -100,7 +100,7 @@ Table cut_table(const AnyModel& model, const Options& o, PlotKind kind) {
 
 /// Burley's slice: the value over the angle of the half vector to the normal and that of the light
 /// to the half vector.
-Table slice_table(const AnyModel& model, const Options& o) {
+Table slice_table(const AnyModel& model, const EvalArguments& o) {
     Table t{title_of(o), {"theta_h_deg", "theta_d_deg", "f"}, {}, PlotKind::image, "BRDF / sr⁻¹"};
     t.x_label = "angle of the half vector to the normal / degrees";
     t.names = {"", "angle of the light to the half vector / degrees", ""};
@@ -112,7 +112,7 @@ Table slice_table(const AnyModel& model, const Options& o) {
     return t;
 }
 
-int evaluate(const AnyModel& model, const Options& o) {
+int evaluate(const AnyModel& model, const EvalArguments& o) {
     if (o.wi.empty() || o.wo.empty())
         throw InputError(
             "give --wi and --wo, or one of --albedo, --slice, --lobe, --curve; see 'nacre help "
@@ -133,7 +133,7 @@ int evaluate(const AnyModel& model, const Options& o) {
     return success;
 }
 
-int run(const Options& o) {
+int run(const EvalArguments& o) {
     if (o.albedo + o.slice + o.lobe + o.curve > 1)
         throw InputError("give one of --albedo, --slice, --lobe, --curve");
     Settings settings;
@@ -169,7 +169,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_eval(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<EvalArguments>();
     app.add_option("model", o->model, "a reflectance model; see 'nacre models'")->required();
     app.add_option("--set", o->set, "parameters, name=value; colours as red,green,blue")
         ->allow_extra_args()

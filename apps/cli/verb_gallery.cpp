@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct GalleryArguments {
     std::vector<std::string> names;
     std::string folder, scenes;
     double scale = 1;
@@ -100,7 +100,7 @@ std::string caption(const fs::path& file) {
     return r;
 }
 
-Scene load(const fs::path& file, const Options& o) {
+Scene load(const fs::path& file, const GalleryArguments& o) {
     LoadOptions sized;
     if (o.scale != 1) {  // the camera depends on the size, so it is read again
         const FilmSettings film = load_scene(file).film;
@@ -139,7 +139,8 @@ Image compose(const std::vector<Image>& tiles) {
 }
 
 /// Empty if Ctrl-C came before the picture was complete.
-std::optional<Image> picture(const fs::path& file, const Options& o, const Invocation& invocation) {
+std::optional<Image> picture(const fs::path& file, const GalleryArguments& o,
+                             const Invocation& invocation) {
     const Scene scene = load(file, o);
     const RenderPlan plan = plan_of(scene);
     for (const std::string& w : warnings_of(scene, plan)) say("nacre: warning: {}\n", w);
@@ -154,7 +155,7 @@ std::optional<Image> picture(const fs::path& file, const Options& o, const Invoc
                         {invocation.command_line, version, file.filename().string()});
 }
 
-int run(const Options& o, const Invocation& invocation) {
+int run(const GalleryArguments& o, const Invocation& invocation) {
     const fs::path scenes = o.scenes.empty() ? shipped_scenes() : fs::path(o.scenes);
     const std::vector<Plate> plates = choose(find_plates(scenes), o.names);
     make_output_folder(o.folder);
@@ -182,7 +183,7 @@ int run(const Options& o, const Invocation& invocation) {
 }  // namespace
 
 Action set_up_gallery(CLI::App& app, const Invocation& invocation) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<GalleryArguments>();
     app.add_option("names", o->names, "pictures (default: all)");
     app.add_option("-o,--output", o->folder, "folder for the pictures")->required();
     add_number(app, "--scale", o->scale, {0, 16, true},

@@ -9,12 +9,12 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct ImageArguments {
     std::string input, output;
     float exposure = 0;
 };
 
-int run(const Options& o) {
+int run(const ImageArguments& o) {
     check_image_output(o.output);
     refuse_input_as_output(o.output, {o.input});
     Image image = read_image(o.input);
@@ -32,7 +32,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_image(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ImageArguments>();
     app.add_option("input", o->input, "image: .exr, .pfm, .hdr, .png, .jpg")->required();
     app.add_option("-o,--output", o->output, "image: .exr, .pfm, .hdr, .png")->required();
     add_number(app, "--exposure", o->exposure, {-100, 100}, "stops: every one doubles the light");

@@ -1,13 +1,16 @@
-// nacre info: what is in a scene, mesh or image file.
+// nacre info: what is in a scene, mesh, image or measured file.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/measured_page.h"
+#include "apps/cli/plain_json.h"
 #include "apps/cli/verb.h"
 #include "nacre/geometry/gltf_materials.h"
 #include "nacre/geometry/mesh_io.h"
 #include "nacre/geometry/mesh_report.h"
 #include "nacre/image/image.h"
 #include "nacre/math/error.h"
+#include "nacre/measured/formats.h"
 #include "nacre/render/noise.h"
 #include "nacre/scene/load.h"
 #include "nacre/techniques/missing_light.h"
@@ -151,43 +154,28 @@ ordered_json describe_scene(const std::filesystem::path& file) {
             {"warnings", warnings_of(scene, plan_of(scene))}};
 }
 
-/// "key: value" lines; what is nested is indented.
-void print_plain(const ordered_json& json, int indent = 0) {
-    for (const auto& [key, value] : json.items()) {
-        const std::string label = json.is_array() ? "-" : key + ":";
-        const bool flat = value.is_primitive() ||
-                          (value.is_array() && std::all_of(value.begin(), value.end(),
-                                                           [](auto& v) { return v.is_number(); }));
-        fmt::print("{:{}}{}{}\n", "", indent, label,
-                   !flat               ? ""
-                   : value.is_string() ? " " + value.template get<std::string>()
-                                       : " " + value.dump());
-        if (!flat) print_plain(value, indent + 2);
-    }
-}
-
-struct Options {
+struct InfoArguments {
     std::string file;
     bool json = false;
 };
 
-int run(const Options& o) {
+int run(const InfoArguments& o) {
     const std::filesystem::path file = o.file;
-    const ordered_json json = has_image_extension(file)    ? describe_image(file)
-                              : file.extension() == ".xml" ? describe_scene(file)
-                                                           : describe_mesh(file);
-    if (o.json)
-        fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-    else
-        print_plain(json);
+    print_json(has_image_extension(file)      ? describe_image(file)
+               : recognise_measured(file)     ? describe_measured(file)
+               : file.extension() == ".xml"   ? describe_scene(file)
+               : has_measured_extension(file) ? describe_measured(file)
+                                              : describe_mesh(file),
+               o.json);
     return success;
 }
 
 }  // namespace
 
 Action set_up_info(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
-    app.add_option("file", o->file, "scene (.xml), mesh or image")->required();
+    auto o = std::make_shared<InfoArguments>();
+    app.add_option("file", o->file, "scene (.xml), mesh, image or measured reflectance")
+        ->required();
     app.add_flag("--json", o->json, "for programs");
     return [o] { return run(*o); };
 }

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MergeArguments {
     std::vector<std::string> states;
     std::string output;
     float exposure = 0;
@@ -40,7 +40,7 @@ void check_there(const RenderState& all) {
             empty);
 }
 
-int run(const Options& o, const Invocation& invocation) {
+int run(const MergeArguments& o, const Invocation& invocation) {
     const fs::path picture = o.output, kept = film_path(picture);
     check_image_output(picture);
     refuse_input_as_output(picture, {o.states.begin(), o.states.end()});
@@ -78,7 +78,7 @@ int run(const Options& o, const Invocation& invocation) {
 }  // namespace
 
 Action set_up_merge(CLI::App& app, const Invocation& invocation) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<MergeArguments>();
     app.add_option(
            "states", o->states,
            "NAME.film.exr that render --checkpoint or --film-state kept: of one picture, of "

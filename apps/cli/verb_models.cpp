@@ -248,7 +248,7 @@ int show(const std::string& name, bool json) {
     finder.fail(name);
 }
 
-struct Options {
+struct ModelsArguments {
     bool json = false, text = false;
     std::string name, folder;
 };
@@ -256,7 +256,7 @@ struct Options {
 }  // namespace
 
 Action set_up_models(CLI::App& app, const Invocation& invocation) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ModelsArguments>();
     app.add_flag("--json", o->json, "for programs");
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
     sub->add_option(

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct ProfileArguments {
     std::string profile, output;
     MediumOptions medium;
     std::vector<std::string> set;
@@ -38,7 +38,7 @@ struct Column {
 
 /// Radii in even steps of their logarithm: edges of rings, each a multiple of the first, which is a
 /// bin of the simulation.
-std::vector<double> ring_edges(const ProfileMedium& m, const Options& o) {
+std::vector<double> ring_edges(const ProfileMedium& m, const ProfileArguments& o) {
     const double free_path = 1. / m.sigma_t_prime();
     const double sigma_tr = std::sqrt(3. * m.sigma_a * m.sigma_t_prime());
     // Ten lengths of the exponential fall, between 10 and 100 free paths.
@@ -72,7 +72,8 @@ Column evaluate(const RadialProfile& profile, const std::vector<double>& edges, 
 }
 
 /// Of the light that entered, which is how profiles count: the mirrored light is no part of it.
-Column simulate(const ProfileMedium& m, const std::vector<double>& edges, const Options& o) {
+Column simulate(const ProfileMedium& m, const std::vector<double>& edges,
+                const ProfileArguments& o) {
     SlabMonteCarloOptions options;
     options.photons = o.photons;
     options.seed = o.seed;
@@ -116,7 +117,7 @@ Column simulate(const ProfileMedium& m, const std::vector<double>& edges, const 
 /// The profile of that name, or all. Of all, those are left out, with a word on why, that cannot be
 /// made of the medium, and an option goes to those that have it.
 std::vector<std::unique_ptr<RadialProfile>> chosen_profiles(const ProfileMedium& medium,
-                                                            const Options& o) {
+                                                            const ProfileArguments& o) {
     Settings settings;
     for (const std::string& s : o.set) settings.push_back(parse_setting(s));
     std::vector<std::unique_ptr<RadialProfile>> chosen;
@@ -232,7 +233,7 @@ void print_json(const std::vector<Column>& columns, const std::vector<double>& r
     fmt::print("{}\n", r.dump(2));
 }
 
-int run(const Options& o) {
+int run(const ProfileArguments& o) {
     check_table_output(o.output);
     if (o.json && !o.output.empty()) throw InputError("give either --json or -o");
     const ProfileMedium medium = profile_medium(o.medium);
@@ -259,7 +260,7 @@ int run(const Options& o) {
 }  // namespace
 
 Action set_up_profile(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ProfileArguments>();
     app.add_option("profile", o->profile, "a diffusion profile, or all; see 'nacre models'")
         ->required();
     add_medium_options(app, o->medium);

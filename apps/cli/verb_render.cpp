@@ -14,7 +14,7 @@
 namespace nacre::cli {
 namespace {
 
-struct Options {
+struct RenderArguments {
     SceneInput input;
     FilmOptions film;
     FinishOptions finish;
@@ -45,7 +45,7 @@ void set_crop(FilmSettings& film, const std::string& text) {
 }
 
 /// By the scene's own techniques, or --technique, --profile and --set.
-RenderPlan plan(const Scene& scene, const Options& o, const CLI::App& app) {
+RenderPlan plan(const Scene& scene, const RenderArguments& o, const CLI::App& app) {
     if (o.technique.empty()) {
         for (const char* option : {"--profile", "--set"})
             if (app.count(option))
@@ -66,7 +66,7 @@ RenderPlan plan(const Scene& scene, const Options& o, const CLI::App& app) {
     return plan_of(scene, choice);
 }
 
-int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
+int run(const RenderArguments& o, const CLI::App& app, const Invocation& invocation) {
     // What is wrong with the command line is said before anything is read, and what is wrong with
     // the output before anything is rendered.
     SaveOptions save;
@@ -117,7 +117,7 @@ int run(const Options& o, const CLI::App& app, const Invocation& invocation) {
 }  // namespace
 
 Action set_up_render(CLI::App& app, const Invocation& invocation) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<RenderArguments>();
     app.add_option("scene", o->input.scene,
                    "scene (.xml) or mesh (.ply, .obj, .stl, .off, .glb, ...)")
         ->required();

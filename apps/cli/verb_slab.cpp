@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct SlabArguments {
     std::string file, skin, output;
     std::vector<std::string> layers, methods;
     std::optional<double> eta_above, eta_below, angle, nm, step, rmax;
@@ -111,7 +111,7 @@ void print_totals(const std::vector<Row>& rows, bool json) {
     }
 }
 
-void write_or_print(const Table& table, const Options& o) {
+void write_or_print(const Table& table, const SlabArguments& o) {
     if (!o.json) return write_table(table, o.output);
     ordered_json r;
     for (std::size_t c = 0; c < table.columns.size(); ++c)
@@ -120,7 +120,7 @@ void write_or_print(const Table& table, const Options& o) {
 }
 
 /// Light and, unless it is skin's, the stack.
-SlabTask task_of(const Options& o) {
+SlabTask task_of(const SlabArguments& o) {
     SlabTask task;
     if (o.diffuse && o.angle) throw InputError("give either --angle or --diffuse");
     const double angle = o.angle.value_or(0.);
@@ -133,7 +133,7 @@ SlabTask task_of(const Options& o) {
     return task;
 }
 
-void refuse_contradictions(const Options& o, const CLI::App& app) {
+void refuse_contradictions(const SlabArguments& o, const CLI::App& app) {
     const bool skin = app.count("--skin") > 0;
     if (int(!o.file.empty()) + int(skin) + int(!o.layers.empty()) != 1)
         throw InputError(
@@ -162,7 +162,7 @@ void refuse_contradictions(const Options& o, const CLI::App& app) {
                 fmt::format("{}: the file says all of a run; {} is for layers", o.file, option));
 }
 
-int run(const Options& o, const CLI::App& app) {
+int run(const SlabArguments& o, const CLI::App& app) {
     refuse_contradictions(o, app);
     if (!o.file.empty())
         return run_mcml({o.file, o.output,
@@ -209,7 +209,7 @@ int run(const Options& o, const CLI::App& app) {
 }  // namespace
 
 Action set_up_slab(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<SlabArguments>();
     app.add_option("file", o->file, "input of MCML (.mci): its runs are simulated");
     app.add_option("--layer", o->layers,
                    "from the top: \"sigma_s=10 sigma_a=0.1 g=0.8 thickness=1 eta=1.4\", mm; or "

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "nacre/math/error.h"
+#include "tests/support/error_of.h"
 
 namespace nacre::test {
 
@@ -19,18 +19,13 @@ inline const nlohmann::json& bssrdf_reference() {
     return values;
 }
 
-/// The message of the InputError that `action` throws.
-template <class F>
-std::string error_of(F&& action) {
-    try {
-        action();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
-
 }  // namespace nacre::test
+
+namespace nacre {
+
+inline double number(const nlohmann::json& v) { return v; }
+
+}  // namespace nacre
 
 #define EXPECT_RELATIVE(value, expected, tolerance) \
     EXPECT_NEAR(value, expected, (tolerance)*std::abs(double(expected)))

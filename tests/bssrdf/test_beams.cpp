@@ -12,8 +12,6 @@ namespace {
 
 using test::bssrdf_reference;
 
-double number(const nlohmann::json& v) { return v; }
-
 }  // namespace
 
 TEST(PhotonBeamDiffusion, AgreesWithTheReference) {

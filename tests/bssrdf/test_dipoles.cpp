@@ -6,16 +6,13 @@
 #include "nacre/math/lanes_wide.h"
 #include "nacre/optics/media.h"
 #include "tests/bssrdf/reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
 namespace {
 
 using test::bssrdf_reference;
-
-constexpr double pi = std::numbers::pi;
-
-double number(const nlohmann::json& v) { return v; }
 
 }  // namespace
 

@@ -13,8 +13,6 @@ namespace {
 using test::bssrdf_reference;
 using Fit = NormalisedDiffusionFit;
 
-double number(const nlohmann::json& v) { return v; }
-
 }  // namespace
 
 TEST(NormalisedDiffusion, AgreesWithTheReference) {

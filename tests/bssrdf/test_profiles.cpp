@@ -6,14 +6,13 @@
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
 #include "tests/bssrdf/reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
 namespace {
 
 using test::error_of;
-
-constexpr double pi = std::numbers::pi;
 
 struct Case {
     std::string_view name, options;

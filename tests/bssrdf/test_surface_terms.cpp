@@ -6,16 +6,13 @@
 #include "nacre/bssrdf/single_scattering.h"
 #include "nacre/math/quadrature.h"
 #include "tests/bssrdf/reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
 namespace {
 
 using test::bssrdf_reference;
-
-constexpr double pi = std::numbers::pi;
-
-double number(const nlohmann::json& v) { return v; }
 
 Vec3d vector(const nlohmann::json& v) { return {v[0], v[1], v[2]}; }
 

@@ -1,7 +1,7 @@
 // Lists of descriptions, and finding in them.
 #include "nacre/catalogue/catalogue.h"
 
-#include "tests/catalogue/error_of.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {

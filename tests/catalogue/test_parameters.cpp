@@ -1,14 +1,13 @@
 // Parameters that describe themselves: ranges, words and names.
 #include "nacre/catalogue/parameter.h"
 
-#include "tests/catalogue/error_of.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {
 
 using test::error_of;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Range {
     double low, high;

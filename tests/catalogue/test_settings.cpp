@@ -3,7 +3,7 @@
 
 #include "nacre/math/random.h"
 #include "nacre/spectrum/spectrum.h"
-#include "tests/catalogue/error_of.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {

@@ -1,18 +1,16 @@
 // Uniform points by area, and nearest points, against closed forms.
-#include <numbers>
 
 #include "nacre/geometry/closest_point.h"
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/geometry/ray_scene.h"
 #include "tests/geometry/shapes.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
 using test::random_direction;
 using test::share;
-
-constexpr double kPi = std::numbers::pi;
 
 struct Moments {
     double area = 0;
@@ -49,9 +47,9 @@ TEST(SampleArea, SphereDiskCylinderMoments) {
     scene.add(Disk{});
     scene.add(Cylinder{});
     scene.build();
-    EXPECT_NEAR(scene.area(0), 4 * kPi, 1e-12);
-    EXPECT_NEAR(scene.area(1), kPi, 1e-12);
-    EXPECT_NEAR(scene.area(2), 2 * kPi, 1e-12);
+    EXPECT_NEAR(scene.area(0), 4 * pi, 1e-12);
+    EXPECT_NEAR(scene.area(1), pi, 1e-12);
+    EXPECT_NEAR(scene.area(2), 2 * pi, 1e-12);
     const Moments sphere = moments(scene, 0, kSamples), disk = moments(scene, 1, kSamples),
                   cylinder = moments(scene, 2, kSamples);
     for (int a = 0; a < 3; ++a) {
@@ -74,7 +72,7 @@ TEST(SampleArea, EllipticCylinderIsUniformByArea) {
     double perimeter = 0, xx = 0;
     const int n = 1000000;
     for (int i = 0; i < n; ++i) {
-        const double a = 2 * kPi * i / n, b = 2 * kPi * (i + 1) / n;
+        const double a = 2 * pi * i / n, b = 2 * pi * (i + 1) / n;
         const double ds = std::hypot(std::cos(b) - std::cos(a), 0.25 * (std::sin(b) - std::sin(a)));
         perimeter += ds;
         xx += ds * std::pow(std::cos((a + b) / 2), 2);

@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "nacre/geometry/figure.h"
@@ -12,11 +11,11 @@
 #include "nacre/geometry/sdf.h"
 #include "nacre/geometry/surface_nets.h"
 #include "nacre/math/error.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // --- Distances
 // ------------------------------------------------------------------------------------
@@ -156,8 +155,8 @@ TEST(SurfaceNets, SphereHasItsAreaVolumeAndNormals) {
     EXPECT_EQ(t.euler, 2);
     EXPECT_EQ(t.components, 1);
     // Chords of length h lie h^2 / 8r inside: 0.1 % of the radius at most.
-    EXPECT_NEAR(t.volume, 4.0 / 3.0 * kPi * 1000, 12);
-    EXPECT_NEAR(t.area, 4 * kPi * 100, 4);
+    EXPECT_NEAR(t.volume, 4.0 / 3.0 * pi * 1000, 12);
+    EXPECT_NEAR(t.area, 4 * pi * 100, 4);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Vec3f r = mesh.positions[i] - Vec3f(0.3f, -0.2f, 0.1f);
         EXPECT_NEAR(length(r), 10, 2e-4);
@@ -170,7 +169,7 @@ TEST(SurfaceNets, TorusHasAHole) {
     const Topology t = topology(surface_nets(ring, {cube(12), 0.7f, 1}));
     EXPECT_TRUE(t.closed && t.fans);
     EXPECT_EQ(t.euler, 0);
-    EXPECT_NEAR(t.volume, 2 * kPi * kPi * 8 * 2.5 * 2.5, 0.01 * 987);
+    EXPECT_NEAR(t.volume, 2 * pi * pi * 8 * 2.5 * 2.5, 0.01 * 987);
 }
 
 // Noise without any correlation between corners holds every case of a cell, ambiguous ones too.
@@ -203,37 +202,31 @@ TEST(SurfaceNets, SkippingEmptySpaceChangesNothing) {
     EXPECT_EQ(points(a), points(b));
 }
 
-std::string message(const std::function<void()>& run) {
-    try {
-        run();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
-}
-
 TEST(SurfaceNets, WrongInput) {
     const auto ball = [](const Point3f& p) { return sdf::sphere(p, 10); };
-    EXPECT_EQ(message([&] {
+    EXPECT_EQ(test::error_of([&] {
                   surface_nets(ball, {cube(12), 0});
               }),
               "surface nets: the cell, the box and the Lipschitz bound must be positive");
-    EXPECT_EQ(message([&] {
+    EXPECT_EQ(test::error_of([&] {
                   surface_nets(ball, {Box3f{}, 1});
               }),
               "surface nets: the cell, the box and the Lipschitz bound must be positive");
-    EXPECT_EQ(message([&] {
+    EXPECT_EQ(test::error_of([&] {
                   surface_nets(ball, {{{-12, -12, -4}, {12, 12, 12}}, 1});
               }).substr(0, 55),
               "surface nets: the surface reaches the side of the box a");
-    EXPECT_NE(message([&] { surface_nets(ball, {cube(2), 0.1f}); }), "");  // wholly inside
-    EXPECT_EQ(message([&] {
+    EXPECT_NE(test::error_of([&] {
+                  surface_nets(ball, {cube(2), 0.1f});
+              }),
+              "no error");  // wholly inside
+    EXPECT_EQ(test::error_of([&] {
                   surface_nets(ball, {cube(12), 0.5f, 0.1f});
               }),
               "surface nets: the field changes faster than its Lipschitz bound says; raise it");
-    EXPECT_EQ(message([] { make_figure(0); }),
+    EXPECT_EQ(test::error_of([] { make_figure(0); }),
               "figure: a resolution of 0 mm is not possible; give 0.2 to 8 mm");
-    EXPECT_EQ(message([] { make_figure(NAN); }),
+    EXPECT_EQ(test::error_of([] { make_figure(NAN); }),
               "figure: a resolution of nan mm is not possible; give 0.2 to 8 mm");
 }
 

@@ -18,7 +18,7 @@ Mesh shared_cube() {
 }
 
 /// A prism of n sides about z, of radius and height 1.
-Mesh prism(std::uint32_t n) {
+Mesh round_prism(std::uint32_t n) {
     Mesh m;
     for (int z = 0; z < 2; ++z)
         for (std::uint32_t i = 0; i < n; ++i) {
@@ -79,7 +79,7 @@ TEST(MeshNormals, PrismsAreRoundFromEightSidesOn) {
     // Of the sides; lids are flat either way. Around the middle of an edge normals lean by half the
     // turn from side to side where it is smooth.
     for (const auto& [n, lean] : {std::pair{6u, 0.}, std::pair{8u, 22.5}, std::pair{16u, 11.25}}) {
-        Mesh m = prism(n);
+        Mesh m = round_prism(n);
         compute_normals(m, default_crease_angle);
         EXPECT_NEAR(largest_lean(m), lean, 1.) << n;
         EXPECT_EQ(m.positions.size(), n == 6 ? 6 * 2 * 3 : n * 4) << n;

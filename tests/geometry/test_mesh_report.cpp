@@ -1,13 +1,10 @@
 #include "nacre/geometry/mesh_report.h"
 
-#include <numbers>
-
 #include "nacre/geometry/mesh_build.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(MeshBuild, GeneratedMeshesAreSolidWithKnownVolume) {
     const MeshReport cube = inspect(make_cube());
@@ -16,7 +13,7 @@ TEST(MeshBuild, GeneratedMeshesAreSolidWithKnownVolume) {
     EXPECT_DOUBLE_EQ(cube.volume, 8);
     EXPECT_DOUBLE_EQ(cube.area, 24);
     // The regular icosahedron of edge a inscribed in the unit sphere: V = 5 (3 + sqrt 5) / 12 a^3.
-    const double a = 1 / std::sin(2 * kPi / 5);
+    const double a = 1 / std::sin(2 * pi / 5);
     const MeshReport ico = inspect(make_icosphere(0));
     EXPECT_TRUE(ico.solid());
     EXPECT_NEAR(ico.volume, 5 * (3 + std::sqrt(5.)) / 12 * a * a * a, 1e-6);
@@ -24,14 +21,14 @@ TEST(MeshBuild, GeneratedMeshesAreSolidWithKnownVolume) {
     EXPECT_TRUE(sphere.solid());
     EXPECT_EQ(sphere.triangles, 20u * 1024);
     EXPECT_EQ(sphere.vertices, 10u * 1024 + 2);  // Euler: V = 2 + T / 2
-    EXPECT_NEAR(sphere.volume / (4 / 3. * kPi), 1, 2e-3);
-    EXPECT_NEAR(sphere.area / (4 * kPi), 1, 1e-3);
+    EXPECT_NEAR(sphere.volume / (4 / 3. * pi), 1, 2e-3);
+    EXPECT_NEAR(sphere.area / (4 * pi), 1, 1e-3);
     const MeshReport torus = inspect(make_torus(2, 0.5f, 200, 100));
     EXPECT_TRUE(torus.solid());
     EXPECT_EQ(torus.vertices, 20000u);  // V - E + T = 0
     EXPECT_EQ(torus.components, 1u);
-    EXPECT_NEAR(torus.volume / (2 * kPi * kPi * 2 * 0.25), 1, 2e-3);
-    EXPECT_NEAR(torus.area / (4 * kPi * kPi * 2 * 0.5), 1, 1e-3);
+    EXPECT_NEAR(torus.volume / (2 * pi * pi * 2 * 0.25), 1, 2e-3);
+    EXPECT_NEAR(torus.area / (4 * pi * pi * 2 * 0.5), 1, 1e-3);
     const MeshReport rectangle = inspect(make_rectangle());
     EXPECT_EQ(rectangle.boundary_edges, 4u);
     EXPECT_DOUBLE_EQ(rectangle.area, 4);

@@ -1,19 +1,16 @@
 #include "nacre/geometry/ray_scene.h"
 
-#include <numbers>
-
 #include "nacre/geometry/mesh_build.h"
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "tests/geometry/shapes.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
 using test::random_direction;
 using test::share;
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3f toward(const Point3f& from, const Point3f& to) { return normalize(to - from); }
 
@@ -99,7 +96,7 @@ TEST(RayScene, DiskAndCylinderUnderAffineMaps) {
     int disks = 0, cylinders = 0;
     for (int i = 0; i < 20000; ++i) {
         // Aim at a known point of the surface in local coordinates, from either side.
-        const double phi = 2 * kPi * random.next();
+        const double phi = 2 * pi * random.next();
         const bool disk = random.next() < 0.5f;
         const double r = disk ? random.next() : 1;
         const double z = disk ? 0 : random.next();

@@ -15,6 +15,7 @@
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "nacre/math/statistics.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {
@@ -331,15 +332,6 @@ TEST(SurfacePoints, VoronoiSharesMendBoundaries) {
     EXPECT_NEAR(mean(), 0.5, 0.005);
 }
 
-std::string message(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "accepted";
-}
-
 TEST(SurfacePoints, Errors) {
     const Mesh square = make_rectangle();
     Mesh none, line = square, nowhere = square;
@@ -382,7 +374,7 @@ TEST(SurfacePoints, Errors) {
              assign_voronoi_shares(square, points, 0);
          },
          "Voronoi shares by 0 samples per point; give a number from 1 to 10000"}};
-    for (const auto& [call, expected] : cases) EXPECT_EQ(message(call), expected);
+    for (const auto& [call, expected] : cases) EXPECT_EQ(test::error_of(call), expected);
     // 2 * 4 / (sqrt(3) * 0.1^2) = 461.9, and at least one.
     EXPECT_EQ(point_count(4, 0.1), 462u);
     EXPECT_EQ(point_count(4, 100), 1u);

@@ -10,16 +10,16 @@
 namespace nacre {
 namespace {
 
-struct Case {
+struct Tessellation {
     Primitive primitive;
     double radius;  // longest semi-axis
     bool flipped;
 };
 
-const std::vector<Case>& cases() {
-    static const std::vector<Case> all = [] {
+const std::vector<Tessellation>& cases() {
+    static const std::vector<Tessellation> all = [] {
         const Transform mirror = Transform::scale({-2, 1, 3}) * Transform::rotate({1, 2, 3}, 40);
-        std::vector<Case> made;
+        std::vector<Tessellation> made;
         for (const bool flip : {false, true}) {
             made.push_back({Sphere{{1, 2, 3}, 2.5f, flip}, 2.5, flip});
             made.push_back({Disk{Transform::scale({3, 0.5, 1}), flip}, 3, flip});

@@ -4,11 +4,10 @@
 #include "nacre/math/quadrature.h"
 #include "nacre/math/random.h"
 #include "tests/illumination/reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre::illumination {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// The default parameters of a model in some situation.
 Lighting<double> some_lighting(Random& random) {

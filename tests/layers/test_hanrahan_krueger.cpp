@@ -7,6 +7,7 @@
 #include "nacre/optics/phase.h"
 #include "tests/layers/layer_vectors.h"
 #include "tests/reflectance/chi_square.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 using test::degree;
 using test::direction;
 using Slab = HanrahanKrueger<double>;
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 Vec3d below(const Vec3d& w) { return {w.x, w.y, -w.z}; }
 

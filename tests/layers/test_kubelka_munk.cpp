@@ -5,11 +5,10 @@
 #include "nacre/layers/layer_walk.h"
 #include "nacre/optics/fresnel_moments.h"
 #include "tests/layers/layer_vectors.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 FluxLayer layer(double S, double K, double d) { return flux_layer(kubelka_munk({S, K}, d)); }
 

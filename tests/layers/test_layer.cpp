@@ -3,12 +3,10 @@
 #include <limits>
 
 #include "tests/layers/layer_vectors.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Layer, DerivesWhatFollowsFromItsCoefficients) {
     const Layer l{.sigma_s = 3., .sigma_a = 1., .g = 0.5, .thickness = 2., .eta = 1.4};

@@ -6,11 +6,10 @@
 #include "nacre/optics/fresnel.h"
 #include "nacre/optics/fresnel_moments.h"
 #include "tests/layers/layer_vectors.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 LayerStack stack_of(const nlohmann::json& row) {
     LayerStack stack{{}, row["n_above"], row["n_below"]};

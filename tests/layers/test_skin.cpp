@@ -3,13 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "nacre/math/error.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
 namespace {
-
-const double infinity = std::numeric_limits<double>::infinity();
-const double nan = std::numeric_limits<double>::quiet_NaN();
 
 double reduced_scattering(const Layer& layer) { return (1. - layer.g) * layer.sigma_s; }
 
@@ -85,7 +83,7 @@ TEST(Skin, OneMediumOfUniformLayersIsTheirMatter) {
     for (double nm = 360.; nm <= 830.; nm += 10.) {
         const Layer one = skin_coefficients(uniform(), nm);
         const Layer dermis = skin_stack(uniform(), nm).layers[3];
-        EXPECT_EQ(one.thickness, infinity);
+        EXPECT_EQ(one.thickness, inf);
         EXPECT_EQ(one.g, dermis.g);
         EXPECT_NEAR(one.sigma_s, dermis.sigma_s, 1e-12);
         EXPECT_NEAR(one.sigma_a, dermis.sigma_a, 1e-11 * dermis.sigma_a);
@@ -156,7 +154,7 @@ TEST(Skin, BloodShowsItsDoubleBand) {
 TEST(Skin, AnInfiniteHypodermisIsAllowed) {
     SkinParameters skin;
     const Layer deep = skin_coefficients(skin, 700.);
-    skin.hypodermis.thickness = infinity;
+    skin.hypodermis.thickness = inf;
     EXPECT_NO_THROW(check(skin_stack(skin, 700.)));
     EXPECT_EQ(skin_coefficients(skin, 700.).sigma_a, deep.sigma_a);
 }
@@ -178,7 +176,7 @@ TEST(Skin, WrongInputIsExplained) {
               "epidermis: thickness = 0 must be positive"},
              {[](SkinParameters& s) { s.hypodermis.thickness = nan; },
               "hypodermis: thickness = nan must be positive"},
-             {[](SkinParameters& s) { s.reticular_dermis.thickness = infinity; },
+             {[](SkinParameters& s) { s.reticular_dermis.thickness = inf; },
               "reticular dermis: thickness = inf must be finite, except in the hypodermis"},
              {[](SkinParameters& s) { s.reticular_dermis.eta = 0.9; },
               "reticular dermis: eta = 0.9 must lie within [1, 2]"},
@@ -186,7 +184,7 @@ TEST(Skin, WrongInputIsExplained) {
               "epidermis: eta = nan must lie within [1, 2]"},
              {[](SkinParameters& s) { s.hypodermis.scattering = 0.; },
               "hypodermis: scattering = 0 must be positive and finite"},
-             {[](SkinParameters& s) { s.hypodermis.scattering = infinity; },
+             {[](SkinParameters& s) { s.hypodermis.scattering = inf; },
               "hypodermis: scattering = inf must be positive and finite"},
              {[](SkinParameters& s) { s.oxygenation = 1.01; },
               "skin: oxygenation = 1.01 must lie within [0, 1]"},

@@ -7,12 +7,12 @@
 #include "nacre/layers/adding_doubling.h"
 #include "nacre/math/quadrature.h"
 #include "tests/layers/slab_reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
 namespace {
 
-using std::numbers::pi;
 using test::cosine_of;
 using test::infinite;
 using test::layer_of;

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "nacre/math/random.h"
+#include "tests/support/constants.h"
 #include "tests/support/statistics.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Counts of n samples on a grid over [0, 1)^2 that `to_cell` maps uniformly distributed results to.
 template <class Sample>

@@ -7,16 +7,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 #include "nacre/math/error.h"
 #include "nacre/measured/half_angle.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t count = 90 * 90 * 180;
 
 /// A file, its values by plane and node as stored (before the scales).

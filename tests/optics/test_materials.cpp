@@ -8,20 +8,12 @@
 #include "nacre/optics/fresnel_moments.h"
 #include "nacre/optics/media.h"
 #include "tests/optics/reference.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 
 namespace {
 
-template <class F>
-std::string message(F make) {
-    try {
-        make();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
 bool starts_with(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
 }
@@ -85,9 +77,9 @@ TEST(Media, AreFoundRegardlessOfCaseAndSpaces) {
     EXPECT_EQ(measured_media().size(), 47u);
     EXPECT_EQ(measured_media().find("skim milk").name, "Skimmilk");
     EXPECT_EQ(measured_media().find("HEAD & shoulders_shampoo").name, "Head & Shoulders Shampoo");
-    EXPECT_TRUE(starts_with(message([] { measured_media().find("marbel"); }),
+    EXPECT_TRUE(starts_with(test::error_of([] { measured_media().find("marbel"); }),
                             "unknown measured medium 'marbel'; did you mean 'Marble'?"));
-    EXPECT_TRUE(starts_with(message([] { measured_media().find("plutonium"); }),
+    EXPECT_TRUE(starts_with(test::error_of([] { measured_media().find("plutonium"); }),
                             "unknown measured medium 'plutonium'; known are: Apple, "));
 }
 
@@ -97,7 +89,7 @@ TEST(Dielectrics, NamedIndices) {
     EXPECT_FLOAT_EQ(dielectric_index("diamond"), 2.419f);
     EXPECT_FLOAT_EQ(dielectric_index("carbon_tetrachloride"), 1.461f);
     EXPECT_EQ(dielectric_names().size(), 23u);
-    EXPECT_TRUE(starts_with(message([] { dielectric_index("diamnd"); }),
+    EXPECT_TRUE(starts_with(test::error_of([] { dielectric_index("diamnd"); }),
                             "unknown dielectric 'diamnd'; did you mean 'diamond'?"));
 }
 
@@ -132,10 +124,11 @@ TEST(Dielectrics, FormulasAndTables) {
     EXPECT_FLOAT_EQ(table.at(800.f), 1.5f);
     EXPECT_FALSE(DielectricIndex(1.3f).is_dispersive());
     EXPECT_FLOAT_EQ(DielectricIndex(1.3f).eval(Wavelengths::at(500.f))[2], 1.3f);
-    EXPECT_EQ(message([] { DielectricIndex(0.f); }), "index of refraction: n = 0 must be positive");
-    EXPECT_EQ(message([] { DielectricIndex::cauchy(-1.f, 0.f); }),
+    EXPECT_EQ(test::error_of([] { DielectricIndex(0.f); }),
+              "index of refraction: n = 0 must be positive");
+    EXPECT_EQ(test::error_of([] { DielectricIndex::cauchy(-1.f, 0.f); }),
               "index of refraction: Cauchy's formula at 360 nm gives -1 must be positive");
-    EXPECT_EQ(message([] {
+    EXPECT_EQ(test::error_of([] {
                   DielectricIndex::tabulated({500.f, 400.f}, {1.5f, 1.5f});
               }),
               "index of refraction: wavelength 400 nm follows 500 nm; sort by wavelength");
@@ -168,7 +161,7 @@ TEST(Conductors, ReflectLikeTheMetalsTheyAre) {
         EXPECT_GT(metal.k->eval(Wavelengths::at(830.f))[0], 1.f) << name;
         EXPECT_GT(metal.eta->rgb().x, 0.f) << name;
     }
-    EXPECT_TRUE(starts_with(message([] { conductor_index("Pb"); }),
+    EXPECT_TRUE(starts_with(test::error_of([] { conductor_index("Pb"); }),
                             "unknown conductor 'Pb'; known are: Ag, Al, Au, "));
 }
 

@@ -6,13 +6,12 @@
 #include "nacre/math/quadrature.h"
 #include "nacre/math/random.h"
 #include "tests/optics/reference.h"
+#include "tests/support/constants.h"
 #include "tests/support/statistics.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Functions {
     std::function<double(double)> eval, sample_cos;

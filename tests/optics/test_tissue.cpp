@@ -7,22 +7,12 @@
 
 #include "nacre/math/error.h"
 #include "nacre/optics/haemoglobin.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 
 namespace {
-
-const double nan = std::numeric_limits<double>::quiet_NaN();
-
-template <class F>
-std::string message(F call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 /// Wavelengths within [from, to] at which f has a maximum over its neighbours 1 nm away.
 template <class F>
@@ -175,7 +165,7 @@ TEST(Tissue, WrongInputIsExplained) {
              {[] { melanin_absorption(500., MelaninModel::donner_jensen, 2.); },
               "eumelanin = 2 must lie within [0, 1]"},
          })
-        EXPECT_EQ(message(call), expected);
+        EXPECT_EQ(test::error_of(call), expected);
 }
 
 }  // namespace nacre

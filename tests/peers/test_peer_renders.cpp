@@ -9,16 +9,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "nacre/peers/peer.h"
 #include "nacre/render/render.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int width = 32, height = 24;
 constexpr double half_width = 4;  // of the plane in view
 

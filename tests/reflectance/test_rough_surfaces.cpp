@@ -4,20 +4,19 @@
 #include "nacre/reflectance/rough_plastic.h"
 #include "tests/reflectance/chi_square.h"
 #include "tests/reflectance/reference.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-Vec3d direction(double cosine, double phi) {
+Vec3d direction_of_cosine(double cosine, double phi) {
     const double s = std::sqrt(1. - cosine * cosine);
     return {s * std::cos(phi), s * std::sin(phi), cosine};
 }
 
 Vec3d random_direction(Random& random) {
     const float z = 2.f * random.next() - 1.f;
-    return direction(z, 2. * pi * random.next());
+    return direction_of_cosine(z, 2. * pi * random.next());
 }
 
 }  // namespace
@@ -90,10 +89,10 @@ TEST(RoughBoundary, ReflectsTheIntegralOfItsBrdf) {
     const RoughDielectric<double, double, Ggx<double>> model{facets, 1.5, 1., 0.};
     const GaussLegendre nodes(64);
     for (double cosine : {0.2, 0.6, 0.95}) {
-        const Vec3d wo = direction(cosine, 0.);
+        const Vec3d wo = direction_of_cosine(cosine, 0.);
         const double integral = nodes.integrate(0., 1., [&](double z) {
             return 2. * nodes.integrate(0., pi, [&](double phi) {
-                return model.eval(direction(z, phi), wo) * z;
+                return model.eval(direction_of_cosine(z, phi), wo) * z;
             });
         });
         EXPECT_NEAR(rough_reflectance(facets, wo, 1.5), integral, 1e-4) << cosine;
@@ -141,9 +140,9 @@ TEST(Plastic, HasTheAlbedoOfItsClosedForm) {
         for (bool nonlinear : {false, true})
             for (double cosine : {0.1, 0.5, 1.0}) {
                 const Plastic<double> model{rho, eta, inner, nonlinear};
-                const Vec3d wo = direction(cosine, 0.);
+                const Vec3d wo = direction_of_cosine(cosine, 0.);
                 const double albedo = nodes.integrate(0., 1., [&](double z) {
-                    return 2. * pi * model.eval(direction(z, 1.), wo) * z;
+                    return 2. * pi * model.eval(direction_of_cosine(z, 1.), wo) * z;
                 });
                 const double expected = (1. - fresnel_dielectric(cosine, eta)) * rho *
                                         (1. - inner) / (1. - (nonlinear ? rho : 1.) * inner);

@@ -4,16 +4,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <functional>
-#include <numbers>
 
 #include "nacre/image/image.h"
 #include "nacre/render/integrator.h"
 #include "nacre/spectrum/color.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
-
-inline constexpr double pi = std::numbers::pi;
 
 /// Mean of independent values of three channels, with its standard error.
 struct RadianceEstimate {

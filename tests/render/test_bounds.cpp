@@ -17,10 +17,10 @@ Point3f random_point(Random& random, const Box3f& box) {
     return box.lower + box.diagonal() * Vec3f(a.x, a.y, b.x);
 }
 
-using Bounds = RenderTest;
+using BoundsTest = RenderTest;
 
 // Few lights, which are ranked by distance; and many, which are not.
-TEST_F(Bounds, LightsAreChosenAsOftenAsClaimed) {
+TEST_F(BoundsTest, LightsAreChosenAsOftenAsClaimed) {
     for (const int many : {3, 60}) {
         std::string text = xml::constant_light(0.2) + "<emitter type=\"point\"/>";
         for (int i = 0; i < many; ++i)
@@ -52,7 +52,7 @@ TEST_F(Bounds, LightsAreChosenAsOftenAsClaimed) {
 }
 
 // The same random number must find the same light in every run, wherever the lights lie in memory.
-TEST_F(Bounds, LightsAreChosenInTheOrderOfTheScene) {
+TEST_F(BoundsTest, LightsAreChosenInTheOrderOfTheScene) {
     const Scene s = scene(xml::sphere({0, 2, 1}, 0.3, xml::area_light({1, 2, 3})) +
                           xml::sphere({3, 2, 1}, 0.3, xml::area_light({1, 2, 3})) +
                           xml::sphere({6, 2, 1}, 0.3, xml::area_light({1, 2, 3})));
@@ -65,14 +65,14 @@ TEST_F(Bounds, LightsAreChosenInTheOrderOfTheScene) {
     } while (std::ranges::next_permutation(lights).found);
 }
 
-TEST_F(Bounds, WithoutLightsNoneIsChosen) {
+TEST_F(BoundsTest, WithoutLightsNoneIsChosen) {
     const Scene s = scene(xml::sphere({}, 1, ""));
     const LightChooser chooser(s.lights, s.rays.bounds());
     EXPECT_EQ(chooser.choose({0, 0, 0}, 0.5f).light, nullptr);
     EXPECT_EQ(chooser.probability({0, 0, 0}, nullptr), 0.f);
 }
 
-TEST_F(Bounds, ClearanceIsALowerBoundOfTheDistance) {
+TEST_F(BoundsTest, ClearanceIsALowerBoundOfTheDistance) {
     const Scene s =
         scene(xml::sphere({}, 1, "") + xml::sphere({0.3, 0, 0}, 0.2, "") +
               xml::shape("cube",
@@ -109,7 +109,7 @@ TEST_F(Bounds, ClearanceIsALowerBoundOfTheDistance) {
 
 // Pieces of a ray are in order, without gaps inside the volume, and bound what is in them; outside
 // of them is nothing.
-TEST_F(Bounds, MajorantsBoundTheExtinctionAlongRays) {
+TEST_F(BoundsTest, MajorantsBoundTheExtinctionAlongRays) {
     write_vol("b.vol", 17, 3, [](int x, int y, int z, int c) {
         return (x * 31 + y * 17 + z * 7 + c * 3) % 23 == 0 ? 9. : 0.1 * c + 0.02 * x;
     });
@@ -169,7 +169,7 @@ TEST_F(Bounds, MajorantsBoundTheExtinctionAlongRays) {
 }
 
 // What does not vary in space has one bound for the whole ray.
-TEST_F(Bounds, OneBoundWhereExtinctionIsConstant) {
+TEST_F(BoundsTest, OneBoundWhereExtinctionIsConstant) {
     const Scene s = scene(
         xml::constant_light() +
         xml::sphere({}, 1,

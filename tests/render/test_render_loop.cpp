@@ -13,48 +13,10 @@
 #include "nacre/spectrum/cie.h"
 #include "nacre/spectrum/color.h"
 #include "nacre/spectrum/photometry.h"
+#include "tests/render/made_radiance.h"
 
 namespace nacre {
 namespace {
-
-/// A pinhole looking along +z; film x and y span the square [-1, 1]^2 at distance 1.
-class TestCamera : public Camera {
-  public:
-    explicit TestCamera(bool parallel = false) : parallel_(parallel) {}
-    Ray ray(Vec2f film, Vec2f) const override {
-        if (parallel_) return {{film.x, film.y, 0.f}, {0.f, 0.f, 1.f}};
-        return {{}, normalize(Vec3f(2 * film.x - 1, 2 * film.y - 1, 1.f))};
-    }
-
-  private:
-    bool parallel_;
-};
-
-/// Radiance given by a function; counts one ray.
-class TestIntegrator : public Integrator {
-  public:
-    using Function = std::function<Spectral(const Ray&, Sampler&, const Wavelengths&)>;
-    explicit TestIntegrator(Function f) : f_(std::move(f)) {}
-    Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
-                      RayCounts& counts) const override {
-        ++counts.rays;
-        counts.scatterings += 2;
-        return f_(ray, sampler, wavelengths);
-    }
-
-  private:
-    Function f_;
-};
-
-Scene test_scene(int width, int height, int samples) {
-    Scene scene;
-    scene.camera = std::make_shared<TestCamera>();
-    scene.film.width = width;
-    scene.film.height = height;
-    scene.film.filter.type = "box";
-    scene.sampler.samples = samples;
-    return scene;
-}
 
 /// Noise whose length differs from sample to sample, as a random walk's does.
 const TestIntegrator noisy([](const Ray& ray, Sampler& sampler, const Wavelengths&) {

@@ -5,34 +5,13 @@
 #include "nacre/render/film_state.h"
 #include "nacre/render/noise.h"
 #include "nacre/render/render.h"
+#include "tests/render/made_radiance.h"
 
 namespace nacre {
 namespace {
 
-/// A pinhole looking along +z.
-class TestCamera : public Camera {
-  public:
-    Ray ray(Vec2f film, Vec2f) const override {
-        return {{}, normalize(Vec3f(2 * film.x - 1, 2 * film.y - 1, 1.f))};
-    }
-};
-
-class TestIntegrator : public Integrator {
-  public:
-    using Function = std::function<Spectral(const Ray&, Sampler&)>;
-    explicit TestIntegrator(Function f) : f_(std::move(f)) {}
-    Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths&,
-                      RayCounts& counts) const override {
-        ++counts.rays;
-        return f_(ray, sampler);
-    }
-
-  private:
-    Function f_;
-};
-
 /// Samples of differing length, some invalid.
-const TestIntegrator noisy([](const Ray& ray, Sampler& sampler) {
+const TestIntegrator uneven([](const Ray& ray, Sampler& sampler, const Wavelengths&) {
     float v = 0.f;
     for (int i = 0; i < 60 && sampler.random().next() > 0.05f; ++i) v += sampler.next1d();
     if (sampler.random().next() < 0.002f) v = std::nanf("");
@@ -40,19 +19,13 @@ const TestIntegrator noisy([](const Ray& ray, Sampler& sampler) {
 });
 
 /// Mean 1 and variance 1/3 in each channel, independent: the channels of a pixel, too.
-const TestIntegrator uniform([](const Ray&, Sampler& sampler) {
+const TestIntegrator uniform([](const Ray&, Sampler& sampler, const Wavelengths&) {
     Random& random = sampler.random();
     return Spectral(2 * random.next(), 2 * random.next(), 2 * random.next(), 0.f);
 });
 
-Scene test_scene(int width, int height, int samples) {
-    Scene scene;
-    scene.camera = std::make_shared<TestCamera>();
-    scene.film.width = width;
-    scene.film.height = height;
-    scene.film.filter.type = "mitchell";
-    scene.sampler.samples = samples;
-    return scene;
+Scene wide_filter(int width, int height, int samples) {
+    return test_scene(width, height, samples, "mitchell");
 }
 
 /// All that a state holds: sums, counts, invalid samples.
@@ -60,17 +33,17 @@ std::string bits(const Film& film) { return FilmState::encode(film, {}); }
 
 TEST(Resume, HasTheBitsOfOneRenderWhereverItStoppedAndForAnyThreads) {
     for (const char* sampler : {"independent", "sobol", "stratified"}) {
-        Scene scene = test_scene(37, 21, 40);
+        Scene scene = wide_filter(37, 21, 40);
         scene.sampler.type = sampler;
-        const std::string whole = bits(render(scene, noisy).film);
+        const std::string whole = bits(render(scene, uneven).film);
         for (const std::uint64_t stop_at : {1u, 777u, 20000u, 31079u}) {
             std::atomic<bool> stop{false};
             std::atomic<std::uint64_t> n{0};
-            const TestIntegrator stopping([&](const Ray& ray, Sampler& s) {
+            const TestIntegrator stopping([&](const Ray& ray, Sampler& s, const Wavelengths&) {
                 if (++n == stop_at) stop = true;
                 Wavelengths w = Wavelengths::rgb_bands();
                 RayCounts counts;
-                return noisy.radiance(ray, s, w, counts);
+                return uneven.radiance(ray, s, w, counts);
             });
             const RenderResult part = render(scene, stopping, {.threads = 3, .stop = &stop});
             ASSERT_FALSE(part.complete) << stop_at;
@@ -81,7 +54,7 @@ TEST(Resume, HasTheBitsOfOneRenderWhereverItStoppedAndForAnyThreads) {
             options.progress = [&](const RenderProgress& p) {
                 if (!first) first = p.done;
             };
-            const RenderResult rest = render(scene, noisy, options);
+            const RenderResult rest = render(scene, uneven, options);
             EXPECT_TRUE(rest.complete);
             EXPECT_EQ(bits(rest.film), whole) << sampler << ", stopped at " << stop_at;
             EXPECT_EQ(part.counts.rays + rest.counts.rays, 37u * 21u * 40u);
@@ -92,32 +65,32 @@ TEST(Resume, HasTheBitsOfOneRenderWhereverItStoppedAndForAnyThreads) {
 
 TEST(Resume, MoreSamplesOfAFinishedRenderHaveTheBitsOfOne) {
     for (const char* sampler : {"independent", "sobol"}) {
-        Scene few = test_scene(20, 20, 25), many = test_scene(20, 20, 70);
+        Scene few = wide_filter(20, 20, 25), many = wide_filter(20, 20, 70);
         few.sampler.type = many.sampler.type = sampler;
-        const RenderResult part = render(few, noisy);
+        const RenderResult part = render(few, uneven);
         RenderOptions options;
         options.begun = &part.film;
-        EXPECT_EQ(bits(render(many, noisy, options).film), bits(render(many, noisy).film));
+        EXPECT_EQ(bits(render(many, uneven, options).film), bits(render(many, uneven).film));
         // Nothing is left to do.
-        const RenderResult again = render(few, noisy, options);
+        const RenderResult again = render(few, uneven, options);
         EXPECT_TRUE(again.complete);
         EXPECT_EQ(again.counts.rays, 0u);
     }
 }
 
 TEST(Resume, AFilmOfAnotherPictureIsRefused) {
-    const Scene scene = test_scene(20, 20, 4), other = test_scene(20, 21, 4);
-    const RenderResult part = render(other, noisy);
+    const Scene scene = wide_filter(20, 20, 4), other = wide_filter(20, 21, 4);
+    const RenderResult part = render(other, uneven);
     RenderOptions options;
     options.begun = &part.film;
-    EXPECT_THROW(render(scene, noisy, options), InputError);
+    EXPECT_THROW(render(scene, uneven, options), InputError);
 }
 
 /// Every checkpoint of a render on many threads is a film from which to go on.
 TEST(Resume, CheckpointsWhileOthersRenderGoOnToTheSameBits) {
     // As long as two checkpoints need, whatever the machine does besides.
     for (int samples = 60; samples < 100000; samples *= 4) {
-        const Scene scene = test_scene(70, 50, samples);
+        const Scene scene = wide_filter(70, 50, samples);
         std::vector<std::string> kept;
         std::uint64_t rays = 0;
         RenderOptions options{.threads = 4};
@@ -127,15 +100,15 @@ TEST(Resume, CheckpointsWhileOthersRenderGoOnToTheSameBits) {
             rays = c.counts.rays;
             kept.push_back(bits(c.film));
         };
-        const std::string checked = bits(render(scene, noisy, options).film);
+        const std::string checked = bits(render(scene, uneven, options).film);
         if (kept.size() < 2) continue;
-        const std::string whole = bits(render(scene, noisy).film);
+        const std::string whole = bits(render(scene, uneven).film);
         EXPECT_EQ(checked, whole);
         for (const std::string& state : {kept[0], kept[kept.size() / 2], kept.back()}) {
             const Film film = FilmState::decode(state).film;
             RenderOptions rest;
             rest.begun = &film;
-            EXPECT_EQ(bits(render(scene, noisy, rest).film), whole);
+            EXPECT_EQ(bits(render(scene, uneven, rest).film), whole);
         }
         return;
     }
@@ -146,7 +119,7 @@ TEST(Resume, CheckpointsWhileOthersRenderGoOnToTheSameBits) {
 /// values, so that either square has a relative standard deviation of at most sqrt(2 / N) = 1.3 %;
 /// held to 4 of them.
 TEST(Noise, IsTheErrorThatThereIs) {
-    Scene scene = test_scene(64, 64, 50);
+    Scene scene = wide_filter(64, 64, 50);
     scene.film.filter.type = "box";
     const RenderResult r = render(scene, uniform);
     double error = 0;
@@ -160,13 +133,13 @@ TEST(Noise, IsTheErrorThatThereIs) {
     EXPECT_NEAR(error / truth, 1, 4 * 0.0128);
     EXPECT_NEAR(noise * noise / truth, 1, 4 * 0.0128);
     // A picture of twice the light has the same; a half without any noise does not make it cleaner.
-    const TestIntegrator brighter([](const Ray& ray, Sampler& s) {
+    const TestIntegrator brighter([](const Ray& ray, Sampler& s, const Wavelengths&) {
         Wavelengths w = Wavelengths::rgb_bands();
         RayCounts counts;
         return 2.f * uniform.radiance(ray, s, w, counts);
     });
     EXPECT_NEAR(film_noise(render(scene, brighter).film), noise, 1e-6 * noise);
-    const TestIntegrator half([](const Ray& ray, Sampler& s) {
+    const TestIntegrator half([](const Ray& ray, Sampler& s, const Wavelengths&) {
         Wavelengths w = Wavelengths::rgb_bands();
         RayCounts counts;
         return ray.d.x > 0 ? Spectral(1.f) : uniform.radiance(ray, s, w, counts);
@@ -179,7 +152,7 @@ TEST(Noise, IsTheErrorThatThereIs) {
 /// 1 / 3 / n / 1.01 <= 0.05^2 takes n = 133 samples: the batch that ends at 144; the noise that is
 /// told is what is there, and the difference to an independent render of the same is sqrt(2) of it.
 TEST(Noise, EndsARenderAtTheSameSamplesForAnyThreadsAndAfterResuming) {
-    Scene scene = test_scene(64, 64, 1 << 30);
+    Scene scene = wide_filter(64, 64, 1 << 30);
     scene.film.filter.type = "box";
     const RenderResult one = render(scene, uniform, {.threads = 1, .noise = 0.05});
     EXPECT_TRUE(one.complete);
@@ -216,7 +189,7 @@ TEST(Noise, EndsARenderAtTheSameSamplesForAnyThreadsAndAfterResuming) {
 }
 
 TEST(Noise, HasAtLeastSomeSamplesAndAtMostThoseOfTheFrame) {
-    const Scene scene = test_scene(16, 16, 50);
+    const Scene scene = wide_filter(16, 16, 50);
     const RenderResult easy = render(scene, uniform, {.noise = 1});
     EXPECT_EQ(easy.sampler.samples, least_noise_samples);
     const RenderResult hard = render(scene, uniform, {.noise = 0.001});

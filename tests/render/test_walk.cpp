@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <numbers>
 
 #include "nacre/math/sampling.h"
+#include "tests/support/constants.h"
 #include "tests/support/statistics.h"
 
 namespace nacre {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Place {
     float clearance = 0.f;
@@ -44,7 +42,7 @@ struct Ball {
 };
 
 /// The slab between the planes z = 0 and z = depth.
-struct Slab {
+struct WalkedSlab {
     float depth;
     Place locate(const Point3f& p) const {
         return {0.999f * std::max(0.f, std::min(p.z, depth - p.z)), false};
@@ -159,7 +157,7 @@ TEST(Walk, MeanPathLengthOfASlab) {
             const Vec2f u = w.random.next2();
             const float s = std::sqrt(u.x), phi = float(2 * pi) * u.y;
             w.d = w.d_in = {s * std::cos(phi), s * std::sin(phi), std::sqrt(1.f - u.x)};
-            Slab slab{depth};
+            WalkedSlab slab{depth};
             ASSERT_EQ(walk(w, sigma, phase, unlimited, slab), WalkEnd::surface);
             path.add(w.length + w.free_path);
             if (w.collisions == 0 && w.d.z > 0)

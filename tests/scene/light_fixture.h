@@ -1,22 +1,20 @@
 #pragma once
 // What the tests of lights share: lights from XML and of single shapes, and estimates with errors.
-#include <numbers>
 
 #include "nacre/math/random.h"
 #include "nacre/scene/lights/types.h"
 #include "tests/geometry/shapes.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 
-inline constexpr double pi = std::numbers::pi;
-inline const Wavelengths rgb = Wavelengths::rgb_bands();
-
 /// Mean of f over n samples with its standard error.
-struct Estimate {
+struct MeanEstimate {
     double mean = 0.0, error = 0.0;
     template <class F>
-    Estimate(int n, F&& f) {
+    MeanEstimate(int n, F&& f) {
         double sum = 0.0, sum2 = 0.0;
         for (int i = 0; i < n; ++i) {
             const double v = f();
@@ -29,17 +27,17 @@ struct Estimate {
 };
 /// Within four standard errors (6e-5 of correct estimates fail; seeds are fixed) and float
 /// rounding.
-inline void expect_estimate(const Estimate& e, double truth) {
+inline void expect_estimate(const MeanEstimate& e, double truth) {
     EXPECT_NEAR(e.mean, truth, 4.0 * e.error + 3e-6 * truth);
     EXPECT_LT(e.error, 0.02 * truth) << "too noisy to tell";
 }
 
 /// Irradiance of a surface with normal n at p, green channel.
-inline Estimate irradiance(const Light& light, const Point3f& p, const Vec3f& n,
-                           int samples = 20000) {
+inline MeanEstimate irradiance(const Light& light, const Point3f& p, const Vec3f& n,
+                               int samples = 20000) {
     Random random(11);
     return {samples, [&] {
-                const LightSample s = light.sample(p, random.next2(), rgb);
+                const LightSample s = light.sample(p, random.next2(), bands);
                 if (!(s.pdf > 0.f)) return 0.0;
                 return double(s.radiance[1]) * std::max(0.f, dot(s.wi, n)) / s.pdf;
             }};
@@ -84,8 +82,8 @@ class Lights : public SceneFiles {
 
     /// Integral of the light's density over the directions whose rays meet it. Directions are drawn
     /// uniformly from the cone about `axis`, which must hold the whole light.
-    Estimate density_integral(const Light& light, const Point3f& from, const Vec3f& axis,
-                              double cos_cone) {
+    MeanEstimate density_integral(const Light& light, const Point3f& from, const Vec3f& axis,
+                                  double cos_cone) {
         Random random(5);
         const Framef frame = Framef::around(normalize(axis));
         return {60000, [&] {
@@ -106,7 +104,7 @@ class Lights : public SceneFiles {
     void expect_samples_are_met(const Light& light, const Point3f& from, float tolerance) {
         Random random(3);
         for (int i = 0; i < 500; ++i) {
-            const LightSample s = light.sample(from, random.next2(), rgb);
+            const LightSample s = light.sample(from, random.next2(), bands);
             if (!(s.pdf > 0.f)) continue;
             EXPECT_NEAR(length(s.wi), 1.f, 1e-6f);
             const Ray ray{from, s.wi};
@@ -115,7 +113,7 @@ class Lights : public SceneFiles {
             EXPECT_NEAR(hit->t, s.distance, tolerance * s.distance);
             const SurfacePoint at = rays_.surface_point(ray, *hit);
             EXPECT_NEAR(light.pdf(from, s.wi, &at), s.pdf, tolerance * s.pdf);
-            EXPECT_EQ(light.radiance(&at, s.wi, rgb)[1], s.radiance[1]);
+            EXPECT_EQ(light.radiance(&at, s.wi, bands)[1], s.radiance[1]);
         }
     }
 

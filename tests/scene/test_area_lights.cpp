@@ -24,11 +24,11 @@ TEST_F(AreaLights, AreaLightShinesOnTheSideOfItsNormalOnly) {
     const LightPtr made = rectangle({0.f, 0.f, 1.f}, {1.f, 0.f, 0.f}, {0.f, 1.f, 0.f});  // up
     const Ray ray{{0.3f, 0.3f, 0.f}, {0.f, 0.f, 1.f}};
     const SurfacePoint at = rays_.surface_point(ray, *rays_.intersect(ray));
-    EXPECT_EQ(made->sample(ray.o, {0.5f, 0.5f}, rgb).pdf, 0.f);
+    EXPECT_EQ(made->sample(ray.o, {0.5f, 0.5f}, bands).pdf, 0.f);
     EXPECT_EQ(made->pdf(ray.o, ray.d, &at), 0.f);
-    EXPECT_EQ(made->radiance(&at, ray.d, rgb)[1], 0.f);
-    EXPECT_FLOAT_EQ(made->radiance(&at, -ray.d, rgb)[1], 2.f);
-    EXPECT_GT(made->sample({0.3f, 0.3f, 2.f}, {0.5f, 0.5f}, rgb).pdf, 0.f);
+    EXPECT_EQ(made->radiance(&at, ray.d, bands)[1], 0.f);
+    EXPECT_FLOAT_EQ(made->radiance(&at, -ray.d, bands)[1], 2.f);
+    EXPECT_GT(made->sample({0.3f, 0.3f, 2.f}, {0.5f, 0.5f}, bands).pdf, 0.f);
 }
 
 TEST_F(AreaLights, SphereGivesItsFormFactor) {
@@ -59,7 +59,7 @@ TEST_F(AreaLights, SphereSamplesAreUniformInTheCone) {
     Random random(1);
     const int n = 64000;
     for (int i = 0; i < n; ++i) {
-        const Vec3f d = frame.to_local(made->sample({}, random.next2(), rgb).wi);
+        const Vec3f d = frame.to_local(made->sample({}, random.next2(), bands).wi);
         const double c = (1.0 - d.z) / drop, phi = std::atan2(d.y, d.x) / (2.0 * pi) + 0.5;
         ++counts[std::clamp(int(c * 8), 0, 7) * 8 + std::clamp(int(phi * 8), 0, 7)];
     }
@@ -72,12 +72,12 @@ TEST_F(AreaLights, SphereThatShinesInwardsGivesPiLInside) {
     expect_estimate(irradiance(*made, inside, normalize(Vec3f(1.f, 1.f, 0.f))), 2.0 * pi);
     expect_estimate(density_integral(*made, inside, {0.f, 0.f, 1.f}, -1.0), 1.0);
     expect_samples_are_met(*made, inside, 1e-3f);
-    EXPECT_EQ(made->sample({9.f, 0.f, 0.f}, {0.5f, 0.5f}, rgb).pdf, 0.f);
+    EXPECT_EQ(made->sample({9.f, 0.f, 0.f}, {0.5f, 0.5f}, bands).pdf, 0.f);
 }
 
 TEST_F(AreaLights, SphereDoesNotShineInside) {
     const LightPtr made = sphere({}, 2.f);
-    EXPECT_EQ(made->sample({0.5f, 0.f, 0.f}, {0.5f, 0.5f}, rgb).pdf, 0.f);
+    EXPECT_EQ(made->sample({0.5f, 0.f, 0.f}, {0.5f, 0.5f}, bands).pdf, 0.f);
 }
 
 /// Form factor of a parallel rectangle a x b whose corner is above the point at height h (Howell, A
@@ -175,7 +175,7 @@ TEST_F(AreaLights, MeshGivesTheSumOfItsFaces) {
     const Ray ray{{0.1f, 0.2f, 3.f}, {0.f, 0.f, 1.f}};
     const SurfacePoint at = rays_.surface_point(ray, *rays_.intersect(ray));
     EXPECT_EQ(made->pdf(ray.o, ray.d, &at), 0.f);
-    EXPECT_EQ(made->sample(ray.o, {0.3f, 0.6f}, rgb).pdf, 0.f);
+    EXPECT_EQ(made->sample(ray.o, {0.3f, 0.6f}, bands).pdf, 0.f);
 }
 
 TEST_F(AreaLights, TexturedAreaLightsShineByTheirTexture) {
@@ -190,7 +190,7 @@ TEST_F(AreaLights, TexturedAreaLightsShineByTheirTexture) {
     Random random(1);
     bool dark = false, bright = false;
     for (int i = 0; i < 400; ++i) {
-        const LightSample s = made->sample({}, random.next2(), rgb);
+        const LightSample s = made->sample({}, random.next2(), bands);
         if (!(s.pdf > 0.f)) continue;
         const Ray ray{{}, s.wi};
         const auto hit = rays_.intersect(ray);

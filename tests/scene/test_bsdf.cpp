@@ -50,7 +50,7 @@ std::vector<test::NamedMaterial> everything() {
 const Wavelengths modes[] = {Wavelengths::rgb_bands(),
                              Wavelengths::at(Spectral(450.f, 530.f, 590.f, 670.f))};
 
-Vec3f direction(Random& random, bool both_sides) {
+Vec3f random_direction(Random& random, bool both_sides) {
     const float z = (both_sides ? 2.f : 1.f) * (random.next() - (both_sides ? 0.5f : 0.f));
     const float r = std::sqrt(1.f - z * z), phi = 6.2831853f * random.next();
     return {r * std::cos(phi), r * std::sin(phi), z};
@@ -64,7 +64,7 @@ std::vector<float> answers(const Bsdf& bsdf) {
         for (int i = 0; i < 4; ++i) list.push_back(s[i]);
     };
     for (int i = 0; i < 20; ++i) {
-        const Vec3f wo = direction(random, true), wi = direction(random, true);
+        const Vec3f wo = random_direction(random, true), wi = random_direction(random, true);
         const float u1 = random.next();
         const auto s = bsdf.sample(wo, u1, random.next2());
         add(bsdf.eval(wi, wo));
@@ -101,8 +101,8 @@ TEST(Bsdf, TogetherIsOneByOne) {
             const test::Bound bsdf(m.material, here, w);
             Random random(stream_key(11, 2));
             for (int i = 0; i < 200; ++i) {
-                const Vec3f wo = direction(random, m.two_sides),
-                            wi = direction(random, m.two_sides);
+                const Vec3f wo = random_direction(random, m.two_sides),
+                            wi = random_direction(random, m.two_sides);
                 const BsdfValue both = bsdf->eval_pdf(wi, wo);
                 const Spectral f = bsdf->eval(wi, wo);
                 const float pdf = bsdf->pdf(wi, wo);
@@ -119,7 +119,7 @@ TEST(Bsdf, SamplesWeighValueOverDensity) {
             const test::Bound bsdf(m.material, here, w);
             Random random(stream_key(12, 3));
             for (int i = 0; i < 200; ++i) {
-                const Vec3f wo = direction(random, m.two_sides);
+                const Vec3f wo = random_direction(random, m.two_sides);
                 const float u1 = random.next();
                 const auto s = bsdf->sample(wo, u1, random.next2());
                 if (!s || s->delta) continue;

@@ -16,10 +16,10 @@ class Cameras : public SceneFiles {
     BuildContext context_;
 };
 
-std::string number(const std::string& name, double value) {
+std::string number_xml(const std::string& name, double value) {
     return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, value);
 }
-std::string text(const std::string& name, const std::string& value) {
+std::string text_xml(const std::string& name, const std::string& value) {
     return fmt::format("<string name=\"{}\" value=\"{}\"/>", name, value);
 }
 
@@ -47,7 +47,7 @@ TEST_F(Cameras, FieldOfViewMeasuresTheNamedAxis) {
                           {"diagonal", 2.f, 2.f * diagonal, diagonal}}) {
         SCOPED_TRACE(fmt::format("{} {}", c.axis, c.aspect));
         const CameraPtr made =
-            camera("perspective", number("fov", 90) + text("fov_axis", c.axis), c.aspect);
+            camera("perspective", number_xml("fov", 90) + text_xml("fov_axis", c.axis), c.aspect);
         expect_near(made->ray({1.f, 0.5f}, {}).d, normalize(Vec3f(-c.right, 0.f, 1.f)));
         expect_near(made->ray({0.5f, 0.f}, {}).d, normalize(Vec3f(0.f, c.top, 1.f)));
         expect_near(made->ray({0.5f, 0.5f}, {}).d, {0.f, 0.f, 1.f});
@@ -57,8 +57,8 @@ TEST_F(Cameras, FieldOfViewMeasuresTheNamedAxis) {
 TEST_F(Cameras, FocalLengthIsThatOf35MillimetreFilm) {
     // The corner of the film lies at half the diagonal of 36 mm x 24 mm, whatever its shape.
     for (const float aspect : {1.5f, 1.f, 0.4f}) {
-        for (const auto& [parameters, mm] : {std::pair{text("focal_length", "35mm"), 35.f},
-                                             {text("focal_length", "85"), 85.f},
+        for (const auto& [parameters, mm] : {std::pair{text_xml("focal_length", "35mm"), 35.f},
+                                             {text_xml("focal_length", "85"), 85.f},
                                              {std::string(), 50.f}}) {
             const Vec3f d = camera("perspective", parameters, aspect)->ray({0.f, 0.f}, {}).d;
             EXPECT_NEAR(std::hypot(d.x, d.y) / d.z, std::hypot(18.f, 12.f) / mm, 1e-5f);
@@ -68,7 +68,7 @@ TEST_F(Cameras, FocalLengthIsThatOf35MillimetreFilm) {
 
 TEST_F(Cameras, LookAtHasTheRightOfThePictureOnTheRight) {
     const CameraPtr made =
-        camera("perspective", number("fov", 90) +
+        camera("perspective", number_xml("fov", 90) +
                                   "<transform name=\"to_world\"><lookat origin=\"1, 2, 10\" "
                                   "target=\"1, 2, 0\" up=\"0, 1, 0\"/></transform>");
     const Ray ray = made->ray({1.f, 0.25f}, {});
@@ -79,8 +79,8 @@ TEST_F(Cameras, LookAtHasTheRightOfThePictureOnTheRight) {
 TEST_F(Cameras, PrincipalPointMovesThePicture) {
     // Mitsuba adds the offset to the film position.
     const CameraPtr made =
-        camera("perspective", number("fov", 90) + number("principal_point_offset_x", 0.25) +
-                                  number("principal_point_offset_y", -0.1));
+        camera("perspective", number_xml("fov", 90) + number_xml("principal_point_offset_x", 0.25) +
+                                  number_xml("principal_point_offset_y", -0.1));
     expect_near(made->ray({0.25f, 0.6f}, {}).d, {0.f, 0.f, 1.f});
 }
 
@@ -88,9 +88,9 @@ TEST_F(Cameras, RaysRunFromTheNearToTheFarPlane) {
     for (const char* type : {"perspective", "thinlens", "orthographic"}) {
         SCOPED_TRACE(type);
         const CameraPtr made =
-            camera(type, (type[0] == 'o' ? std::string() : number("fov", 60)) +
-                             (type[0] == 't' ? number("aperture_radius", 0.3) : std::string()) +
-                             number("near_clip", 0.5) + number("far_clip", 20));
+            camera(type, (type[0] == 'o' ? std::string() : number_xml("fov", 60)) +
+                             (type[0] == 't' ? number_xml("aperture_radius", 0.3) : std::string()) +
+                             number_xml("near_clip", 0.5) + number_xml("far_clip", 20));
         const Ray ray = made->ray({0.1f, 0.8f}, {0.9f, 0.2f});
         EXPECT_NEAR(length(ray.d), 1.f, 1e-6f);
         EXPECT_NEAR((ray.o + ray.d * ray.tmin).z, 0.5f, 1e-5f);
@@ -99,10 +99,11 @@ TEST_F(Cameras, RaysRunFromTheNearToTheFarPlane) {
 }
 
 TEST_F(Cameras, ThinLensFocusesOnePlaneToAPoint) {
-    const CameraPtr pinhole = camera("perspective", number("fov", 50), 1.2f);
-    const CameraPtr lens = camera(
-        "thinlens",
-        number("fov", 50) + number("aperture_radius", 0.25) + number("focus_distance", 3), 1.2f);
+    const CameraPtr pinhole = camera("perspective", number_xml("fov", 50), 1.2f);
+    const CameraPtr lens = camera("thinlens",
+                                  number_xml("fov", 50) + number_xml("aperture_radius", 0.25) +
+                                      number_xml("focus_distance", 3),
+                                  1.2f);
     const Vec2f film{0.2f, 0.7f};
     const Vec3f d = pinhole->ray(film, {}).d;
     const Point3f focus = d * (3.f / d.z);
@@ -143,26 +144,27 @@ TEST_F(Cameras, WrongInputIsExplained) {
     for (const Case& c : {
              Case{"perspektive", "",
                   "unknown sensor type 'perspektive'; did you mean 'perspective'?"},
-             {"perspective", number("fov", 180), "fov must lie between 0 and 180 degrees; got 180"},
-             {"perspective", number("fov", 40) + text("focal_length", "50mm"),
+             {"perspective", number_xml("fov", 180),
+              "fov must lie between 0 and 180 degrees; got 180"},
+             {"perspective", number_xml("fov", 40) + text_xml("focal_length", "50mm"),
               "give either fov or focal_length, not both"},
-             {"perspective", text("focal_length", "50cm"),
+             {"perspective", text_xml("focal_length", "50cm"),
               "focal_length must be a length in millimetres such as '50mm'; got '50cm'"},
-             {"perspective", number("fov", 40) + text("fov_axis", "z"),
+             {"perspective", number_xml("fov", 40) + text_xml("fov_axis", "z"),
               "'fov_axis' of <sensor type=\"perspective\"> cannot be 'z'; known are: x, y, "
               "diagonal, "
               "smaller, larger"},
-             {"perspective", number("near_clip", 0), "near_clip must be greater than 0; got 0"},
-             {"perspective", number("near_clip", 2) + number("far_clip", 1),
+             {"perspective", number_xml("near_clip", 0), "near_clip must be greater than 0; got 0"},
+             {"perspective", number_xml("near_clip", 2) + number_xml("far_clip", 1),
               "far_clip must be greater than near_clip; got 1 and 2"},
-             {"perspective", number("fow", 40),
+             {"perspective", number_xml("fow", 40),
               "<sensor type=\"perspective\"> has no parameter 'fow'; did you mean 'fov'?"},
-             {"thinlens", number("fov", 40),
+             {"thinlens", number_xml("fov", 40),
               "<sensor type=\"thinlens\"> needs a float "
               "'aperture_radius'"},
-             {"thinlens", number("aperture_radius", -1),
+             {"thinlens", number_xml("aperture_radius", -1),
               "aperture_radius must not be negative; got -1"},
-             {"thinlens", number("aperture_radius", 1) + number("focus_distance", 0),
+             {"thinlens", number_xml("aperture_radius", 1) + number_xml("focus_distance", 0),
               "focus_distance must be greater than 0; got 0"},
          }) {
         const std::string error = error_of([&] { camera(c.type, c.parameters); });

@@ -1,17 +1,15 @@
 // The environment map: where its pixels lie on the sphere, and that it is sampled as it says.
-#include <numbers>
 
 #include "nacre/math/random.h"
 #include "nacre/scene/lights/types.h"
 #include "nacre/spectrum/color.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/constants.h"
 #include "tests/support/statistics.h"
 
 namespace nacre {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 Image blank(int width, int height) {
     Image image;
@@ -28,7 +26,7 @@ LightPtr environment(const Image& image, const Transform& to_world = {}, float s
     std::vector<std::string> warnings;
     return make_environment_map(image, {scale, to_world, 1.f}, "map", warnings);
 }
-Vec3f direction(double u, double v) {
+Vec3f direction_of_texel(double u, double v) {
     return {float(std::sin(pi * v) * std::sin(2 * pi * u)), float(std::cos(pi * v)),
             float(-std::sin(pi * v) * std::cos(2 * pi * u))};
 }
@@ -91,8 +89,8 @@ TEST(EnvironmentMap, DensityIntegratesToOneAndIsThatOfTheSamples) {
                      c1 = std::cos(pi * (y + 1) / (rows * fine));
         const double omega = 2.0 * pi / (columns * fine) * (c0 - c1);
         for (int x = 0; x < columns * fine; ++x) {
-            const Vec3f d =
-                direction((x + 0.5) / (columns * fine) + 0.5 / width, (y + 0.5) / (rows * fine));
+            const Vec3f d = direction_of_texel((x + 0.5) / (columns * fine) + 0.5 / width,
+                                               (y + 0.5) / (rows * fine));
             const double mass = light->pdf({}, d, nullptr) * omega;
             expected[std::size_t(y / fine) * columns + x / fine] += mass;
             integral += mass;
@@ -125,7 +123,7 @@ TEST(EnvironmentMap, SamplesGiveTheIrradianceOfTheMap) {
     constexpr int rows = 400, columns = 800;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
-            const Vec3f d = turn.vector(direction((x + 0.5) / columns, (y + 0.5) / rows));
+            const Vec3f d = turn.vector(direction_of_texel((x + 0.5) / columns, (y + 0.5) / rows));
             const double omega =
                 2 * pi / columns * (std::cos(pi * y / rows) - std::cos(pi * (y + 1) / rows));
             truth += light->radiance(nullptr, d, bands)[1] * std::max(0.f, dot(d, n)) * omega;
@@ -194,7 +192,7 @@ TEST(EnvironmentMap, WrongImagesAreExplained) {
     const LightPtr light = make_environment_map(image, {}, "map", warnings);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(warnings[0], "map: 2 negative values were set to 0: no light is negative");
-    EXPECT_GE(light->radiance(nullptr, direction(2.5 / 4, 1.0 / 3), bands)[0], 0.f);
+    EXPECT_GE(light->radiance(nullptr, direction_of_texel(2.5 / 4, 1.0 / 3), bands)[0], 0.f);
 }
 
 using EnvironmentMapFile = SceneFiles;

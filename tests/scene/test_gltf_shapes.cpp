@@ -1,18 +1,16 @@
 // glTF materials as those of a scene: values against the formulas of the specification.
-#include <numbers>
 
 #include "nacre/image/image.h"
 #include "nacre/scene/content_key.h"
 #include "nacre/spectrum/color.h"
 #include "tests/geometry/gltf_files.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/scene_files.h"
 #include "tests/support/bound.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 class GltfShapes : public SceneFiles {
   protected:

@@ -9,7 +9,7 @@ TEST_F(Lights, PointFollowsTheInverseSquare) {
     const LightPtr made = light(
         "<emitter type=\"point\"><point name=\"position\" value=\"1, 2, 3\"/>"
         "<rgb name=\"intensity\" value=\"5, 10, 20\"/></emitter>");
-    const LightSample s = made->sample({1.f, 2.f, -1.f}, {}, rgb);
+    const LightSample s = made->sample({1.f, 2.f, -1.f}, {}, bands);
     EXPECT_TRUE(s.delta && made->is_delta());
     EXPECT_EQ(s.pdf, 1.f);
     EXPECT_EQ(s.wi, Vec3f(0.f, 0.f, 1.f));
@@ -26,7 +26,7 @@ TEST_F(Lights, PointStandsWhereItsTransformPutsIt) {
         "<emitter type=\"point\"><transform name=\"to_world\"><translate x=\"3\"/></transform>"
         "</emitter>");
     EXPECT_EQ(made->bounds().lower, Point3f(3.f, 0.f, 0.f));
-    EXPECT_NEAR(made->sample({3.f, 0.f, 2.f}, {}, rgb).radiance[0], 0.25f, 1e-6f);  // default 1
+    EXPECT_NEAR(made->sample({3.f, 0.f, 2.f}, {}, bands).radiance[0], 0.25f, 1e-6f);  // default 1
 }
 
 TEST_F(Lights, SpotFallsLinearlyInTheAngle) {
@@ -44,7 +44,7 @@ TEST_F(Lights, SpotFallsLinearlyInTheAngle) {
                                           {150.0, 0.0}}) {
         const double a = degrees * pi / 180.0;
         const Point3f p(float(2.0 * std::cos(a)), 0.f, float(2.0 * std::sin(a)));
-        EXPECT_NEAR(made->sample(p, {}, rgb).radiance[0], 8.0 / 4.0 * factor, 1e-4) << degrees;
+        EXPECT_NEAR(made->sample(p, {}, bands).radiance[0], 8.0 / 4.0 * factor, 1e-4) << degrees;
     }
     // Power: 2 pi times the integral of the falloff over the cosine; `power` may be rough.
     double power = 0.0;
@@ -60,7 +60,7 @@ TEST_F(Lights, SpotHasMitsubasDefaults) {
     const LightPtr made = light("<emitter type=\"spot\"/>");  // 20 degrees, beam 15
     const auto at = [&](double degrees) {
         const double a = degrees * pi / 180.0;
-        return made->sample({float(std::sin(a)), 0.f, float(std::cos(a))}, {}, rgb).radiance[1];
+        return made->sample({float(std::sin(a)), 0.f, float(std::cos(a))}, {}, bands).radiance[1];
     };
     EXPECT_NEAR(at(14.9), 1.0, 1e-5);
     EXPECT_NEAR(at(17.5), 0.5, 1e-4);
@@ -81,7 +81,7 @@ TEST_F(Lights, DirectionalHasTheSameIrradianceEverywhere) {
     const LightPtr other = light(
         "<emitter type=\"directional\"><transform name=\"to_world\"><lookat "
         "origin=\"0,0,0\" target=\"1,0,0\" up=\"0,1,0\"/></transform></emitter>");
-    EXPECT_NEAR(other->sample({}, {}, rgb).wi.x, -1.f, 1e-6f);
+    EXPECT_NEAR(other->sample({}, {}, bands).wi.x, -1.f, 1e-6f);
 }
 
 TEST_F(Lights, ConstantLightGivesPiL) {

@@ -17,7 +17,7 @@ using test::number;
 using test::rgb;
 using test::text;
 
-Vec3f direction(double degrees, double azimuth) {
+Vec3f direction_of_degrees(double degrees, double azimuth) {
     const double t = degrees * std::numbers::pi / 180., p = azimuth * std::numbers::pi / 180.;
     return {float(std::sin(t) * std::cos(p)), float(std::sin(t) * std::sin(p)), float(std::cos(t))};
 }
@@ -34,9 +34,9 @@ TEST(HkMaterial, HasTheReferenceValues) {
                                  number("thickness", row["tau"]), number("int_ior", row["n"])},
                                 {child(phase)}));
         const test::Bound layer(m);
-        const Vec3f wi = direction(row["theta_i"], 0.);
+        const Vec3f wi = direction_of_degrees(row["theta_i"], 0.);
         for (const auto& sample : row["samples"]) {
-            const Vec3f wo = direction(sample["theta_o"], double(sample["phi"]) + 180.);
+            const Vec3f wo = direction_of_degrees(sample["theta_o"], double(sample["phi"]) + 180.);
             const double f_r = sample["f_r"], f_t = sample["f_t"];
             EXPECT_NEAR(layer->eval(wi, wo)[0], f_r * wi.z, 1e-5 * f_r) << row;
             EXPECT_NEAR(layer->eval(wi, {wo.x, wo.y, -wo.z})[0], f_t * wi.z, 1e-5 * f_t) << row;
@@ -97,7 +97,7 @@ TEST(HkMaterial, SamplesHaveTheTotalsOfTheLayer) {
 }
 
 TEST(HkMaterial, WaysToStateTheMediumAgree) {
-    const Vec3f wo = direction(30., 0.), wi = direction(50., 120.);
+    const Vec3f wo = direction_of_degrees(30., 0.), wi = direction_of_degrees(50., 120.);
     const auto value = [&](std::vector<SceneValue> values) {
         return test::bound(bsdf("hk", std::move(values)))->eval(wi, wo);
     };
@@ -131,7 +131,7 @@ TEST(HkMaterial, ThicknessIsInMillimetresInEveryScene) {
 
 TEST(HkMaterial, EndsOfTheRangesAreFinite) {
     const double inf = std::numeric_limits<double>::infinity();
-    const Vec3f wo = direction(30., 0.);
+    const Vec3f wo = direction_of_degrees(30., 0.);
     const auto layer = [](double scattering, double absorption, double thickness) {
         return test::bound(bsdf("hk", {number("sigma_s", scattering), number("sigma_a", absorption),
                                        number("thickness", thickness)}));

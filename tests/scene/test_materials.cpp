@@ -2,25 +2,25 @@
 #include "nacre/optics/fresnel.h"
 #include "nacre/optics/fresnel_moments.h"
 #include "tests/reflectance/chi_square.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/material_fixture.h"
 
 namespace nacre {
 namespace {
 
-Vec3f direction(double cosine, double phi) {
+Vec3f direction_of_cosine(double cosine, double phi) {
     const double s = std::sqrt(1. - cosine * cosine);
     return {float(s * std::cos(phi)), float(s * std::sin(phi)), float(cosine)};
 }
 
 /// Viewers in front and, where something happens there, behind.
 std::vector<Vec3f> viewers(const test::NamedMaterial& m) {
-    std::vector<Vec3f> list = {direction(0.98, 0.3), direction(0.6, 2.), direction(0.2, -1.)};
+    std::vector<Vec3f> list = {direction_of_cosine(0.98, 0.3), direction_of_cosine(0.6, 2.),
+                               direction_of_cosine(0.2, -1.)};
     if (m.two_sides)
         for (int i = 0; i < 3; ++i) list.push_back({list[i].x, list[i].y, -list[i].z});
     return list;
 }
-
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 struct Shares {
     double reflected = 0., transmitted = 0., discrete = 0.;  ///< power; probability
@@ -105,8 +105,8 @@ TEST(Materials, AreReciprocal) {
         Random random(stream_key(9, 9));
         const test::Bound bsdf(m.material);
         for (int i = 0; i < 3000; ++i) {
-            const Vec3f a = direction(1.98 * random.next() - 0.99, 6.28 * random.next());
-            const Vec3f b = direction(1.98 * random.next() - 0.99, 6.28 * random.next());
+            const Vec3f a = direction_of_cosine(1.98 * random.next() - 0.99, 6.28 * random.next());
+            const Vec3f b = direction_of_cosine(1.98 * random.next() - 0.99, 6.28 * random.next());
             if (std::abs(a.z) < 0.02f || std::abs(b.z) < 0.02f) continue;
             // f(wi, wo) n_i^2 = f(wo, wi) n_o^2 with n the index on the side of each.
             const double na = a.z > 0.f ? 1. : m.eta, nb = b.z > 0.f ? 1. : m.eta;
@@ -160,7 +160,7 @@ TEST(Materials, LoseNothingWhereNothingAbsorbs) {
           true, 1e-4);
     // Facets in series are neglected: 1 % at this roughness but for grazing views.
     const MaterialPtr frosted = material(bsdf("roughdielectric", {number("alpha", 0.1)}));
-    const Shares s = shares(*frosted, direction(0.9, 1.));
+    const Shares s = shares(*frosted, direction_of_cosine(0.9, 1.));
     EXPECT_NEAR(s.reflected + s.transmitted, 1., 0.01);
 }
 
@@ -168,7 +168,7 @@ TEST(Materials, SplitLightByFresnelsEquations) {
     for (float cosine : {0.2f, 0.5f, 0.9f, -0.3f, -0.9f}) {
         const float glass = 1.5046f / 1.000277f, eta = cosine > 0.f ? glass : 1.f / glass;
         const double f = fresnel_dielectric(std::abs(cosine), eta);
-        const Vec3f wo = direction(cosine, 0.7);
+        const Vec3f wo = direction_of_cosine(cosine, 0.7);
         const Shares smooth = shares(*test::material(test::bsdf("dielectric")), wo);
         EXPECT_NEAR(smooth.reflected, f, 0.01) << cosine;
         const Shares rough = shares(
@@ -197,7 +197,7 @@ TEST(Materials, RefractByTheLawOfSnell) {
     EXPECT_NEAR(out->wi.x, 0.6f, 1e-6f);
     EXPECT_NEAR(out->weight[0], 2.25, 1e-5);
     // Beyond the critical angle everything is reflected.
-    const auto total = bsdf->sample(direction(-0.5, 0.), 0.999f, {});
+    const auto total = bsdf->sample(direction_of_cosine(-0.5, 0.), 0.999f, {});
     ASSERT_TRUE(total);
     EXPECT_LT(total->wi.z, 0.f);
     EXPECT_FLOAT_EQ(total->pdf, 1.f);
@@ -213,13 +213,14 @@ TEST(Materials, PlasticsBaseHasItsClosedForm) {
             const double f = fresnel_dielectric(cosine, eta);
             const double base =
                 (1. - f) * 0.6 * (1. - inner) / (1. - (nonlinear ? 0.6 : 1.) * inner);
-            EXPECT_NEAR(shares(*m, direction(cosine, 0.)).reflected, f + base, 0.006) << cosine;
+            EXPECT_NEAR(shares(*m, direction_of_cosine(cosine, 0.)).reflected, f + base, 0.006)
+                << cosine;
         }
 }
 
 TEST(Materials, BecomeSmoothAsRoughnessVanishes) {
     using namespace test;
-    const Vec3f wo = direction(0.7, 1.), mirror{-wo.x, -wo.y, wo.z};
+    const Vec3f wo = direction_of_cosine(0.7, 1.), mirror{-wo.x, -wo.y, wo.z};
     const auto gold = bound(bsdf("conductor", {text("material", "Au")}));
     for (const char* distribution : {"beckmann", "ggx"}) {
         const auto rough =
@@ -260,7 +261,7 @@ TEST(Materials, DispersionLeavesOneWavelength) {
 
 TEST(Materials, LetShadowRaysPass) {
     using namespace test;
-    const Vec3f wo = direction(0.5, 0.);
+    const Vec3f wo = direction_of_cosine(0.5, 0.);
     const auto through = [&](const SceneNodePtr& n) { return bound(n)->null_transmission(wo)[1]; };
     const float f = fresnel_dielectric(0.5f, 1.5046f / 1.000277f);
     EXPECT_FLOAT_EQ(through(bsdf("null")), 1.f);

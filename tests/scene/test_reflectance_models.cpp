@@ -1,6 +1,7 @@
 // Reflectance models as materials of a scene.
 #include "nacre/math/random.h"
 #include "nacre/reflectance/registry.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/material_fixture.h"
 
 namespace nacre {
@@ -13,7 +14,6 @@ using test::number;
 using test::rgb;
 using test::text;
 
-const Wavelengths bands = Wavelengths::rgb_bands();
 const Vec3f wi{0.48f, 0.36f, 0.8f}, wo{-0.6f, 0.f, 0.8f};
 
 }  // namespace

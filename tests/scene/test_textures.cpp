@@ -5,6 +5,7 @@
 #include "nacre/image/image.h"
 #include "nacre/scene/materials/types.h"
 #include "nacre/spectrum/color.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/material_fixture.h"
 
 namespace nacre {
@@ -17,8 +18,6 @@ using test::node;
 using test::number;
 using test::rgb;
 using test::text;
-
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 /// A folder with image files, gone when the test ends.
 class Textures : public testing::Test {

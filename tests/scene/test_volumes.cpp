@@ -2,12 +2,11 @@
 
 #include "nacre/math/random.h"
 #include "nacre/scene/media/volume_grid.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/scene_files.h"
 
 namespace nacre {
 namespace {
-
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 std::shared_ptr<VoxelGrid> grid(int nx, int ny, int nz, int channels = 1) {
     auto g = std::make_shared<VoxelGrid>();

@@ -1,15 +1,13 @@
 // OpenVDB grids, written here and read back.
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include "nacre/math/random.h"
 #include "nacre/scene/media/volume_grid.h"
+#include "tests/scene/bands.h"
 #include "tests/scene/scene_files.h"
 
 namespace nacre {
 namespace {
-
-const Wavelengths bands = Wavelengths::rgb_bands();
 
 class OpenVdb : public SceneFiles {
   protected:
@@ -79,10 +77,11 @@ TEST_F(OpenVdb, WrongFilesAreExplained) {
     EXPECT_EQ(error_of([&] { make_vdb_volume(file, "", false, albedo); }),
               "fog.vdb: voxel (2, 0, 0) has the value 2; an albedo must lie within [0, 1]");
 
-    const auto sphere =
-        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.f, {0, 0, 0}, 0.5f);
-    sphere->setName("ball");
-    save({sphere});
+    const auto distance = openvdb::FloatGrid::create(1.5f);
+    distance->setGridClass(openvdb::GRID_LEVEL_SET);
+    distance->tree().setValue({0, 0, 0}, -1.f);
+    distance->setName("ball");
+    save({distance});
     EXPECT_EQ(error_of([&] { make_vdb_volume(folder_ / "fog.vdb", "", false, {}); }),
               "fog.vdb: the grid 'ball' is a level set, which holds distances; a medium needs a "
               "density (a fog volume)");

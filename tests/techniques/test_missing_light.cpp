@@ -6,7 +6,7 @@ namespace nacre {
 namespace {
 
 const std::string grey = xml::number("sigma_t", 2) + xml::number("albedo", 0.9);
-const std::string matter = xml::medium("interior", grey);
+const std::string grey_matter = xml::medium("interior", grey);
 const std::string vacuum_ball = xml::sphere({}, 1, xml::dielectric(1.5));
 const std::string point_light =
     "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"5\"/></emitter>\n";
@@ -51,9 +51,9 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
     const std::string sky = xml::constant_light(), mirror = xml::bsdf("conductor"),
                       wall = named("wall", xml::bsdf("diffuse"));
     const std::string tinted =
-        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + matter;
-    const std::string fog = xml::bsdf("null") + matter, jade = xml::dielectric(1.5) + matter,
-                      glass = xml::dielectric(1.5),
+        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + grey_matter;
+    const std::string fog = xml::bsdf("null") + grey_matter,
+                      jade = xml::dielectric(1.5) + grey_matter, glass = xml::dielectric(1.5),
                       marble = subsurface("dipole", word("method", "brdf")),
                       simulated = subsurface("dipole", word("method", "volpath"));
     const struct {
@@ -74,7 +74,8 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
          integrator("path") + sky + named("a", xml::bsdf("null") + xml::medium("exterior", grey)),
          {unseen("path", "at 'a'")}},
         {"a masked boundary",
-         integrator("path") + sky + named("a", xml::bsdf("mask", xml::bsdf("diffuse")) + matter),
+         integrator("path") + sky +
+             named("a", xml::bsdf("mask", xml::bsdf("diffuse")) + grey_matter),
          {unseen("path", "at 'a'")}},
         {"recursion has no techniques",
          integrator("ray") + sky + named("a", marble),
@@ -83,7 +84,7 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
         {"by a technique", integrator("path") + sky + named("a", marble), {}},
         {"simulated", integrator("path") + sky + named("a", simulated), {}},
         {"behind an opaque surface",
-         integrator("path") + sky + named("a", xml::bsdf("diffuse") + matter),
+         integrator("path") + sky + named("a", xml::bsdf("diffuse") + grey_matter),
          {}},
         {"point", integrator("volpath") + point_light + named("a", tinted), {unmet("'a'", false)}},
         {"spot", integrator("volpath") + spot + named("a", tinted), {unmet("'a'", false)}},
@@ -103,7 +104,7 @@ TEST_F(MissingLight, IsSaidOnceForEachKind) {
          {unseen("path", "at 'b'", true), unmet("'a'", false, true)}},
         {"sky", integrator("volpath") + sky + named("a", jade), {}},
         {"fog in the sun", integrator("volpath") + sun + named("a", fog), {}},
-        {"a rough boundary", integrator("volpath") + sun + named("a", rough + matter), {}},
+        {"a rough boundary", integrator("volpath") + sun + named("a", rough + grey_matter), {}},
         {"thin glass", integrator("path") + sun + named("a", xml::bsdf("thindielectric")), {}},
         {"a technique in the sun", integrator("path") + sun + named("a", marble), {}},
         {"a mirror", integrator("path") + sun + named("a", mirror) + wall, {mirrored("'a'")}},
@@ -141,7 +142,7 @@ TEST_F(MissingLight, OfTheCamerasMedium) {
 
 TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
     Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                    named("a", xml::bsdf("null") + matter));
+                    named("a", xml::bsdf("null") + grey_matter));
     s.warnings = {"first"};
     const std::vector<std::string> all = warnings_of(s, plan_of(s));
     ASSERT_EQ(all.size(), 2u);
@@ -150,9 +151,9 @@ TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
 }
 
 TEST_F(MissingLight, MakesNoTruth) {
-    const std::string jade = xml::dielectric(1.5) + matter;
+    const std::string jade = xml::dielectric(1.5) + grey_matter;
     const std::string tinted =
-        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + matter;
+        xml::bsdf("dielectric", xml::number("specular_transmittance", 0.9)) + grey_matter;
     EXPECT_EQ(
         error_of([&] {
             require_lit_insides(scene(xml::integrator("path") + point_light + named("a", tinted)));
@@ -164,7 +165,7 @@ TEST_F(MissingLight, MakesNoTruth) {
     for (const std::string& lit :
          {xml::constant_light() + named("a", tinted), point_light + named("a", jade),
           lamp_inside + named("a", jade), point_light + vacuum_ball,
-          sun + named("a", xml::bsdf("null") + matter)})
+          sun + named("a", xml::bsdf("null") + grey_matter)})
         EXPECT_NO_THROW(require_lit_insides(scene(xml::integrator("path") + lit))) << lit;
 }
 

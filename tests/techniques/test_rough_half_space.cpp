@@ -18,7 +18,7 @@ std::string boundary(double alpha, double index = 1.5, const std::string& distri
                            word("distribution", distribution) + xml::number("alpha", alpha) +
                                xml::number("int_ior", index) + xml::number("ext_ior", 1));
 }
-std::string matter(double albedo, double g = 0.) {
+std::string scattering_matter(double albedo, double g = 0.) {
     return xml::medium("interior", xml::number("sigma_t", 2. / (1. - g)) +
                                        xml::number("albedo", albedo) + "<phase type=\"hg\">" +
                                        xml::number("g", g) + "</phase>");
@@ -29,8 +29,9 @@ class RoughHalfSpaces : public Techniques {
     /// A ball's boundary.
     std::shared_ptr<const Material> material(double alpha, double index = 1.5,
                                              const std::string& distribution = "ggx") {
-        return scene(xml::integrator("path") + xml::constant_light() +
-                     xml::sphere({}, 1, boundary(alpha, index, distribution) + matter(1)))
+        return scene(
+                   xml::integrator("path") + xml::constant_light() +
+                   xml::sphere({}, 1, boundary(alpha, index, distribution) + scattering_matter(1)))
             .shapes[0]
             .material;
     }
@@ -163,7 +164,7 @@ TEST_F(RoughHalfSpaces, AreLikeSmoothOnesWhereFacetsAreNearlyFlat) {
 
 TEST_F(RoughHalfSpaces, OfNarrowPhaseFunctionsAreQuickAndTheirNodesCancel) {
     const Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                          xml::sphere({}, 1, boundary(1e-3) + matter(1)));
+                          xml::sphere({}, 1, boundary(1e-3) + scattering_matter(1)));
     const ProfileMedium media[] = {{10., 0.01, 0.99, 1.5}, {10., 1., 0.99, 1.5}};
     for (const double factor : rough_return(ObjectBoundary::of(s.shapes[0]), media))
         EXPECT_NEAR(factor, 1., 0.01);
@@ -171,7 +172,7 @@ TEST_F(RoughHalfSpaces, OfNarrowPhaseFunctionsAreQuickAndTheirNodesCancel) {
 
 TEST_F(RoughHalfSpaces, StopWhenAsked) {
     const Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                          xml::sphere({}, 1, boundary(0.2) + matter(1)));
+                          xml::sphere({}, 1, boundary(0.2) + scattering_matter(1)));
     const std::atomic<bool> stop = true;
     const ProfileMedium media[] = {{1., 0.01, 0., 1.5}};
     EXPECT_THROW(rough_return(ObjectBoundary::of(s.shapes[0]), media,
@@ -198,7 +199,7 @@ TEST_F(RoughHalfSpaces, OfNoMatterReturnNothing) {
     EXPECT_EQ(rough.albedo({0., 1., 0., 1.5}), 0.);
     const ProfileMedium black[] = {{0., 1., 0., 1.5}};
     const Scene s = scene(xml::integrator("path") + xml::constant_light() +
-                          xml::sphere({}, 1, boundary(0.3) + matter(1)));
+                          xml::sphere({}, 1, boundary(0.3) + scattering_matter(1)));
     EXPECT_EQ(rough_return(ObjectBoundary::of(s.shapes[0]), black), std::vector{1.});
     EXPECT_TRUE(rough_return(ObjectBoundary(1.5f), black).empty());
 }
@@ -211,7 +212,7 @@ TEST_F(RoughHalfSpaces, AreSimulatedAlike) {
         const auto facets = material(c.alpha);
         const double a = c.albedo, expected = RoughHalfSpace(*facets).albedo({a, 1. - a, c.g, 1.5});
         const auto [simulated, error] =
-            returned("volpath", c.alpha, matter(a, c.g), {.pixels = 400, .samples = 64});
+            returned("volpath", c.alpha, scattering_matter(a, c.g), {.pixels = 400, .samples = 64});
         EXPECT_NEAR(simulated, expected, 4.5 * error + 0.002)
             << "alpha " << c.alpha << " albedo " << a << " g " << c.g;
         EXPECT_LT(error, 0.025 * expected);
@@ -225,8 +226,8 @@ TEST_F(RoughHalfSpaces, AreOffByAsMuchAsSmoothOnesUnderTechniques) {
         const double expected = RoughHalfSpace(*facets).albedo(m) / half_space_albedo(m);
         for (const char* technique : {"brdf", "hanrahan_krueger", "random_walk"}) {
             const EstimateOptions options{.pixels = 400, .samples = 32};
-            const auto [smooth, e0] = returned(technique, 0., matter(a), options);
-            const auto [rough, e1] = returned(technique, 0.4, matter(a), options);
+            const auto [smooth, e0] = returned(technique, 0., scattering_matter(a), options);
+            const auto [rough, e1] = returned(technique, 0.4, scattering_matter(a), options);
             EXPECT_NEAR(rough / smooth, expected, 4.5 * std::hypot(e0 / smooth, e1 / smooth) + 0.01)
                 << technique << " albedo " << a;
         }

@@ -10,13 +10,12 @@
 #include "nacre/reflectance/schlick_ct.h"
 #include "nacre/vectors/file.h"
 #include "tests/reflectance/family_data.h"
+#include "tests/support/constants.h"
 
 namespace nacre {
 namespace {
 
 using test::at_degrees;
-
-constexpr double pi = std::numbers::pi;
 
 Vec3d any_direction(Random& random) {
     const double z = 0.05 + 0.95 * double(random.next()), phi = 2. * pi * double(random.next());

@@ -4,6 +4,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/measured/formats.h"
 
 namespace nacre {
 
@@ -60,14 +61,26 @@ ModelSpec parse_model_spec(std::string_view text) {
     return {std::string(text.substr(begin, end - begin)), parse_settings(text.substr(end))};
 }
 
+MeasuredTarget::MeasuredTarget(std::shared_ptr<const Measured> data, std::string name)
+    : data_(std::move(data)), colours_(data_->info()), name_(std::move(name)) {}
+
+std::optional<Vec3d> MeasuredTarget::value(const Vec3d& wi, const Vec3d& wo) const {
+    if (!(wi.z > 0. && wo.z > 0.)) return std::nullopt;
+    double channels[max_measured_channels];
+    const std::span<double> out(channels, std::size_t(data_->info().channels));
+    if (!data_->eval(wi, wo, out)) return std::nullopt;
+    return colours_(out);
+}
+
 std::unique_ptr<Target> make_target(const std::string& text) {
     const std::filesystem::path path(text);
-    if (path.extension() == ".binary")
-        return std::make_unique<MerlTarget>(read_merl(path), path.filename().string());
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored))
-        throw InputError(fmt::format(
-            "{}: only BRDFs of MERL's format can be read, whose names end in .binary", text));
+    bool file = std::filesystem::is_regular_file(path, ignored);
+    // A name that ends like a file is one, be it there or not.
+    for (const MeasuredFormat* format : measured_formats())
+        file = file || path.extension() == format->ending;
+    if (file)
+        return std::make_unique<MeasuredTarget>(read_measured(path), path.filename().string());
     const ModelSpec spec = parse_model_spec(text);
     return std::make_unique<ModelTarget>(make_model(spec.name, spec.settings), text);
 }

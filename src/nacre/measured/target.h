@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "nacre/measured/merl.h"
+#include "nacre/measured/measured.h"
 #include "nacre/reflectance/registry.h"
 
 namespace nacre {
@@ -42,23 +42,24 @@ class ModelTarget final : public Target {
     bool isotropic_;
 };
 
-/// A measurement of MERL, interpolated.
-class MerlTarget final : public Target {
+/// A measured file of any format, interpolated; in linear red, green and blue (ChannelColours).
+class MeasuredTarget final : public Target {
   public:
-    MerlTarget(MerlBrdf brdf, std::string name) : brdf_(std::move(brdf)), name_(std::move(name)) {}
+    MeasuredTarget(std::shared_ptr<const Measured> data, std::string name);
     std::string name() const override { return name_; }
-    std::optional<Vec3d> value(const Vec3d& wi, const Vec3d& wo) const override {
-        return brdf_.eval(wi, wo);
-    }
-    bool isotropic() const override { return true; }
+    std::optional<Vec3d> value(const Vec3d& wi, const Vec3d& wo) const override;
+    bool isotropic() const override { return data_->info().isotropic; }
+    const Measured& data() const { return *data_; }
 
   private:
-    MerlBrdf brdf_;
+    std::shared_ptr<const Measured> data_;
+    ChannelColours colours_;
     std::string name_;
 };
 
-/// A target from what people write: the path of a .binary file, or a model with settings, "ggx
-/// alpha=0.2 fresnel=schlick". Throws InputError as read_merl, find_evaluator and AnyModel do.
+/// A target from what people write: the path of a measured file (formats.h), or a model with
+/// settings, "ggx alpha=0.2 fresnel=schlick". Throws InputError as read_measured, find_evaluator and
+/// AnyModel do.
 std::unique_ptr<Target> make_target(const std::string& text);
 
 /// A model as people write it, "ward variant=duer": its name and what is set. Throws InputError.

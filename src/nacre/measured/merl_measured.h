@@ -1,0 +1,19 @@
+#pragma once
+// A BRDF of MERL as any measured file.
+#include "nacre/measured/measured.h"
+#include "nacre/measured/merl.h"
+
+namespace nacre {
+
+class MerlMeasured final : public Measured {
+  public:
+    explicit MerlMeasured(MerlBrdf brdf);
+    bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override;
+    void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const override;
+    const MerlBrdf& brdf() const { return brdf_; }
+
+  private:
+    MerlBrdf brdf_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,146 @@
+#include "nacre/measured/rgl_brdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nacre {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Of a unit vector, right near the normal as well, where its z has no digits left.
+float sin_theta_of(const Vec3f& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
+float theta_of(const Vec3f& w) { return std::atan2(sin_theta_of(w), w.z); }
+float phi_of(const Vec3f& w) { return w.x == 0.f && w.y == 0.f ? 0.f : std::atan2(w.y, w.x); }
+float to_unit_theta(float theta) { return std::sqrt(theta * (2.f / pi)); }
+float to_unit_phi(float phi) {
+    const float u = (phi + pi) / (2.f * pi);
+    return u - std::floor(u);
+}
+
+/// Densities by the unit square times this are densities by solid angle of the other direction.
+float to_solid_angle(float x, float sin_theta_h, float given_h) {
+    return 1.f / (std::max(2.f * pi * pi * x * sin_theta_h, 1e-6f) * 4.f * given_h);
+}
+
+}  // namespace
+
+/// A given direction, turned into the measured range, and where its slices are.
+struct RglBrdf::Given {
+    Vec3f w;
+    float sign_x = 1.f, sign_y = 1.f;  ///< turn the other one alike
+    float theta, phi;
+    SliceMix mix;
+};
+
+/// A half vector on the unit square.
+struct RglBrdf::Half {
+    float x, y, sin_theta, given_h;
+};
+
+RglBrdf::RglBrdf(RglTables tables) : t_(std::move(tables)), isotropic_(t_.isotropic()) {
+    const std::vector<float>& phi = t_.incidence.slow();
+    if (isotropic_) return;
+    const float range = phi.back() - phi.front(), middle = 0.5f * (phi.back() + phi.front());
+    reduction_ = std::max(int(std::lround(2.f * pi / range)), 1);
+    sign_x_ = std::cos(middle) < 0.f ? -1.f : 1.f;
+    sign_y_ = std::sin(middle) < 0.f ? -1.f : 1.f;
+}
+
+RglBrdf::Given RglBrdf::place(const Vec3f& given) const {
+    Given g;
+    g.w = given;
+    if (reduction_ >= 2) {
+        // Half a circle was measured: the surface looks the same when turned by the other half. A
+        // quarter: when mirrored at x and y, too.
+        g.sign_y = given.y * sign_y_ < 0.f ? -1.f : 1.f;
+        g.sign_x = reduction_ >= 4 ? (given.x * sign_x_ < 0.f ? -1.f : 1.f) : g.sign_y;
+        g.w.x *= g.sign_x;
+        g.w.y *= g.sign_y;
+    }
+    g.theta = theta_of(g.w);
+    g.phi = phi_of(g.w);
+    g.mix = t_.incidence.at(g.phi, g.theta);
+    return g;
+}
+
+RglBrdf::Half RglBrdf::half_of(const Given& g, const Vec3f& other) const {
+    const Vec3f h = normalize(g.w + Vec3f(other.x * g.sign_x, other.y * g.sign_y, other.z));
+    const float phi = phi_of(h), sin_theta = sin_theta_of(h);
+    return {to_unit_theta(std::atan2(sin_theta, h.z)), to_unit_phi(isotropic_ ? phi - g.phi : phi),
+            sin_theta, dot(g.w, h)};
+}
+
+float RglBrdf::factor(const Given& g, float x, float y) const {
+    if (!t_.jacobian) return 1.f;
+    const SliceMix one;
+    return t_.ndf.eval(x, y, one) /
+           (4.f * t_.sigma.eval(to_unit_theta(g.theta), to_unit_phi(g.phi), one));
+}
+
+bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out) const {
+    if (!(given.z > 0.f && other.z > 0.f)) return false;
+    const Given g = place(given);
+    const Half h = half_of(g, other);
+    const auto at = t_.vndf.invert(h.x, h.y, g.mix);
+    const float px = at.x * float(t_.width - 1), py = at.y * float(t_.height - 1);
+    const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
+    const float tx = px - float(x), ty = py - float(y);
+    const float scale = factor(g, h.x, h.y);
+    const std::size_t n = std::size_t(t_.channels), row = std::size_t(t_.width) * n;
+    std::fill_n(out.begin(), n, 0.f);
+    for (int k = 0; k < g.mix.count; ++k) {
+        const float* v =
+            t_.spectra.data() + ((std::size_t(g.mix.slice[k]) * t_.height + y) * t_.width + x) * n;
+        const float w = scale * g.mix.weight[k];
+        const float w00 = w * (1.f - tx) * (1.f - ty), w10 = w * tx * (1.f - ty);
+        const float w01 = w * (1.f - tx) * ty, w11 = w * tx * ty;
+        for (std::size_t c = 0; c < n; ++c)
+            out[c] += w00 * v[c] + w10 * v[n + c] + w01 * v[row + c] + w11 * v[row + n + c];
+    }
+    return true;
+}
+
+Vec3f RglBrdf::direction_of(const Given& g, float x, float y, Vec3f& half) const {
+    const float theta = 0.5f * pi * x * x, s = std::sin(theta);
+    const float phi = (2.f * y - 1.f) * pi + (isotropic_ ? g.phi : 0.f);
+    half = {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
+    const Vec3f w = half * (2.f * dot(g.w, half)) - g.w;
+    return {w.x * g.sign_x, w.y * g.sign_y, w.z};
+}
+
+std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, float v) const {
+    if (!(given.z > 0.f)) return std::nullopt;
+    const Given g = place(given);
+    const auto bright = t_.luminance.sample(u, v, g.mix);
+    const auto at = t_.vndf.sample(bright.x, bright.y, g.mix);
+    Vec3f half;
+    const Vec3f w = direction_of(g, at.x, at.y, half);
+    const float given_h = dot(g.w, half);
+    if (!(w.z > 0.f && given_h > 0.f)) return std::nullopt;
+    return Sample{w,
+                  bright.density * at.density * to_solid_angle(at.x, sin_theta_of(half), given_h)};
+}
+
+float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
+    if (!(given.z > 0.f && other.z > 0.f)) return 0.f;
+    const Given g = place(given);
+    const Half h = half_of(g, other);
+    const auto at = t_.vndf.invert(h.x, h.y, g.mix);
+    return at.density * t_.luminance.density(at.x, at.y, g.mix) *
+           to_solid_angle(h.x, h.sin_theta, h.given_h);
+}
+
+RglBrdf::Node RglBrdf::node(const Vec3f& given, std::size_t slice, int x, int y) const {
+    Given g = place(given);
+    g.mix = SliceMix{};
+    g.mix.slice[0] = std::uint32_t(slice);
+    const auto at = t_.vndf.sample(std::min(float(x) / float(t_.width - 1), 0.9999999f),
+                                   std::min(float(y) / float(t_.height - 1), 0.9999999f), g.mix);
+    Vec3f half;
+    const Vec3f direction = direction_of(g, at.x, at.y, half);
+    return {direction, factor(g, at.x, at.y)};
+}
+
+}  // namespace nacre
