@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MeasureArguments {
     MeasureInput input;
     MeasureOptions measure;
     std::vector<std::string> theta, phi;
@@ -51,7 +51,7 @@ HemisphereBins bins_of(const std::string& text) {
     return {int(polar), int(around)};
 }
 
-std::vector<DirectionCell> incidences_of(const Options& o, const HemisphereBins& bins) {
+std::vector<DirectionCell> incidences_of(const MeasureArguments& o, const HemisphereBins& bins) {
     std::vector<DirectionCell> cells;
     if (o.full) {
         if (!o.theta.empty() || !o.phi.empty())
@@ -70,7 +70,7 @@ std::vector<DirectionCell> incidences_of(const Options& o, const HemisphereBins&
 }
 
 /// What determines the numbers, by name.
-std::map<std::string, std::string> facts_of(const Options& o, const MeasuredPatch& patch) {
+std::map<std::string, std::string> facts_of(const MeasureArguments& o, const MeasuredPatch& patch) {
     std::map<std::string, std::string> facts = patch.facts;
     facts["bins"] = fmt::format("{}x{}", o.measure.bins.polar, o.measure.bins.around);
     facts["orders"] = o.measure.orders > 0 ? std::to_string(o.measure.orders) : "all";
@@ -115,7 +115,7 @@ void save(const MeasurementSet& set, const fs::path& file) {
     write_whole_file(file, file.extension() == ".csv" ? csv_of(set) : json_of(set));
 }
 
-int run(Options& o) {
+int run(MeasureArguments& o) {
     o.measure.bins = bins_of(o.bins);
     const fs::path output = o.output;
     if (!o.output.empty()) {
@@ -163,7 +163,7 @@ int run(Options& o) {
 }  // namespace
 
 Action set_up_measure(CLI::App& app, const Invocation&) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<MeasureArguments>();
     add_measure_input(app, o->input);
     app.add_option("--theta", o->theta, "angles of incidence, degrees, with commas (0,30,60)")
         ->delimiter(',')

@@ -153,7 +153,7 @@ TEST(Measurement, VGroovesMaskAsTorranceAndSparrowSay) {
              {std::pair(10.3, 91.), {50.4, 90.3}, {70.2, 60.4}, {60.3, 20.7}}) {
             const std::string geometry = fmt::format("v_grooves angle={}", angle);
             const auto m = measured(patch_of(geometry.c_str(), "mirror"), from(theta, phi),
-                                    {.bins = {90, 360}, .orders = 1}, 100'000);
+                                    {.bins = {90, 360}, .orders = 1}, 50'000);
             const Vec3d wi = direction(m.incidence);
             double all = 0.;
             for (double side : {-1., 1.}) {
@@ -183,7 +183,7 @@ TEST(Measurement, ManyVGroovesAreTheModelOfTorranceAndSparrow) {
         make_model("torrance_sparrow", parse_settings("kd=0 ks=1 m=0.3 fresnel=one"));
     for (double theta : {20., 65.}) {
         const auto m =
-            measured(patch, from(theta), {.bins = {9, 12}, .orders = 1, .turned = true}, 500'000);
+            measured(patch, from(theta), {.bins = {9, 12}, .orders = 1, .turned = true}, 250'000);
         const Vec3d wi = direction(m.incidence);
         EXPECT_GT(fit(
                       m,
@@ -258,7 +258,7 @@ TEST(Measurement, CylindersLitOnceAreThoseOfPoulinAndFournier) {
             "poulin_fournier", parse_settings(fmt::format("{} kd=0.3 ks=0.6 n=12", shape)));
         for (const auto& [theta, phi] : {std::pair(20., 40.), {70., 80.}}) {
             const auto m =
-                measured(patch, from(theta, phi), {.bins = {9, 18}, .orders = 1}, 1'000'000);
+                measured(patch, from(theta, phi), {.bins = {9, 18}, .orders = 1}, 100'000);
             const Vec3d wi = direction(m.incidence);
             EXPECT_GT(fit(
                           m,
@@ -266,7 +266,7 @@ TEST(Measurement, CylindersLitOnceAreThoseOfPoulinAndFournier) {
                               return mean_over(c,
                                                [&](const Vec3d& w) { return model.eval(wi, w); });
                           },
-                          100.),
+                          50.),
                       1e-4)
                 << shape << " " << theta << " " << phi;
             EXPECT_GT(m.blocked(0).value, 0.001);
@@ -278,13 +278,13 @@ TEST(Measurement, ExchangedDirectionsGiveTheSame) {
     const Patch patch =
         patch_of("fibres fibres=8 length=12 lean=30", "blinn_phong kd=0.5 ks=0.4 n=5");
     const HemisphereBins bins{6, 8};
-    const std::pair<std::size_t, std::size_t> pairs[] = {{1, 37}, {10, 29}, {33, 12}, {42, 20}};
+    const std::pair<std::size_t, std::size_t> pairs[] = {{1, 37}, {10, 29}, {33, 12}};
     for (const auto& [a, b] : pairs) {
-        const auto there = measured(patch, bins.cell(a), {.bins = bins}, 60'000);
-        const auto back = measured(patch, bins.cell(b), {.bins = bins}, 60'000);
+        const auto there = measured(patch, bins.cell(a), {.bins = bins}, 40'000);
+        const auto back = measured(patch, bins.cell(b), {.bins = bins}, 40'000);
         const MeasuredValue f = there.brdf(b, 0), g = back.brdf(a, 0);
         EXPECT_NEAR(f.value, g.value, 4. * std::hypot(f.error, g.error)) << a << " " << b;
-        EXPECT_LT(f.error, 0.1 * f.value);
+        EXPECT_LT(f.error, 0.15 * f.value);
     }
 }
 
@@ -347,8 +347,8 @@ TEST(Measurement, RefusesWhatMeansNothing) {
     EXPECT_EQ(message(from(90.), {}), "light from 90 degrees does not meet the surface from above");
     EXPECT_EQ(message(from(0.), {.bins = {0, 4}}),
               "0 by 4 bins: from 1 to a million of them are possible");
-    EXPECT_EQ(message(from(0.), {.noise = -1.}), "noise must not be negative");
-    EXPECT_EQ(message(from(0.), {.orders = -1}), "orders must not be negative");
+    EXPECT_EQ(message(from(0.), {.bins = {}, .noise = -1.}), "noise must not be negative");
+    EXPECT_EQ(message(from(0.), {.bins = {}, .orders = -1}), "orders must not be negative");
 }
 
 }  // namespace nacre

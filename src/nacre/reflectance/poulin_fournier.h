@@ -67,8 +67,7 @@ inline const ModelDescription& poulin_fournier_description() {
                         .examples = {"kd=0.3 ks=0.7 n=30 spacing=2.3 depth=0.6",
                                      "kd=0 ks=1 n=100 spacing=2 depth=1",
                                      "kd=0.5 ks=0.5 n=8 spacing=0.8 depth=1",
-                                     "profile=grooved kd=0.3 ks=0.7 n=30 spacing=2.3 depth=0.6",
-                                     "profile=grooved kd=0.2 ks=0.8 n=200 spacing=2 depth=0.2"}}},
+                                     "profile=grooved kd=0.3 ks=0.7 n=30 spacing=2.3 depth=0.6"}}},
         .isotropy = "anisotropic; the cylinders lie along the tangent; isotropic for depth = 0",
         .sampling =
             "one-sample mixture of the cosine and, with probability ks/(kd+ks), half "
