@@ -103,8 +103,8 @@ MeasuredPatch load_patch(const MeasureInput& input) {
     MeasuredPatch r;
     r.wavelengths =
         input.nm ? Wavelengths::at(Spectral(float(*input.nm))) : Wavelengths::rgb_bands();
-    r.lanes = input.nm ? std::vector<std::string>{fmt::format("{:.6g} nm", *input.nm)}
-                       : std::vector<std::string>{"red", "green", "blue"};
+    r.lanes = input.nm ? std::vector<std::string>{fmt::format("{:.6g}nm", *input.nm)}
+                       : std::vector<std::string>{"r", "g", "b"};
     const std::filesystem::path path = input.surface;
     if (path.extension() == ".xml")
         load_scene_patch(input, r);

@@ -56,10 +56,13 @@ std::vector<DirectionCell> incidences_of(const MeasureArguments& o, const Hemisp
     if (o.full) {
         if (!o.theta.empty() || !o.phi.empty())
             throw InputError("--full takes light from all bins: leave out --theta and --phi");
-        // A turned patch is the same from all around.
-        for (int t = 0; t < bins.polar; ++t)
-            for (int p = 0; p < (o.measure.turned ? 1 : bins.around); ++p)
-                cells.push_back(bins.cell(std::size_t(t) * bins.around + p));
+        for (std::size_t i = 0; i < bins.size(); ++i) {
+            DirectionCell cell = bins.cell(i);
+            // A turned patch is the same from all around.
+            if (o.measure.turned && cell.phi_low > 0.) continue;
+            if (o.measure.turned) cell.phi_high = 0.;
+            cells.push_back(cell);
+        }
         return cells;
     }
     constexpr double degree = std::numbers::pi / 180.;
@@ -111,8 +114,15 @@ void print(const MeasurementSet& set, const Wavelengths& wavelengths) {
     }
 }
 
+/// Of a table the errors are a second one: a.csv, a.error.csv.
+fs::path error_file(const fs::path& table) {
+    return fs::path(table).replace_extension(".error.csv");
+}
+
 void save(const MeasurementSet& set, const fs::path& file) {
-    write_whole_file(file, file.extension() == ".csv" ? csv_of(set) : json_of(set));
+    if (file.extension() != ".csv") return write_whole_file(file, json_of(set));
+    write_whole_file(file, csv_of(set));
+    write_whole_file(error_file(file), csv_of(set, true));
 }
 
 int run(MeasureArguments& o) {
@@ -122,6 +132,7 @@ int run(MeasureArguments& o) {
         if (output.extension() != ".csv" && output.extension() != ".json")
             throw InputError(fmt::format("-o '{}': a measurement is a .csv or a .json", o.output));
         check_output_file(output);
+        if (output.extension() == ".csv") check_output_file(error_file(output));
     }
     if (o.resume && output.extension() != ".json")
         throw InputError("--resume needs -o FILE.json, the measurement that goes on");
@@ -185,7 +196,7 @@ Action set_up_measure(CLI::App& app, const Invocation&) {
     add_threads(app, o->threads);
     app.add_flag("--resume", o->resume, "go on with the measurement of -o");
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
-    app.add_option("-o,--output", o->output, "FILE.csv or FILE.json");
+    app.add_option("-o,--output", o->output, "FILE.csv, with FILE.error.csv, or FILE.json");
     return [o] { return run(*o); };
 }
 

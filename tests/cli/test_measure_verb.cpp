@@ -1,6 +1,7 @@
 // nacre measure: surfaces by name and from scenes, its files, going on, and what it refuses.
 #include <nlohmann/json.hpp>
 
+#include "nacre/measured/formats.h"
 #include "tests/cli/command_line.h"
 
 namespace nacre {
@@ -53,11 +54,35 @@ TEST_F(MeasureVerb, TablesHaveOneRowABinAndIncidence) {
         "--theta 20 --noise 10% --bins 3x4 -o m.csv");
     ASSERT_EQ(r.code, 0) << r.err;
     const std::string text = read(folder_ / "m.csv");
-    EXPECT_EQ(text.substr(0, text.find('\n')),
-              "theta_i,phi_i,side,theta_o,phi_o,red,green,blue,red_error,green_error,blue_error");
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 2 * 12);
-    EXPECT_NE(text.find("\n20,90,1,15,45,"), std::string::npos) << text;
+    EXPECT_NE(text.find("# material: mirror\n"), std::string::npos) << text;
+    const std::size_t names = text.find("theta_i,phi_i,theta_o,phi_o,r,g,b\n");
+    ASSERT_NE(names, std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin() + names, text.end(), '\n'), 1 + 2 * 12);
+    EXPECT_NE(text.find("\n20,90,15,45,"), std::string::npos) << text;
+    const std::string errors = read(folder_ / "m.error.csv");
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'),
+              std::count(text.begin(), text.end(), '\n'));
     EXPECT_NE(r.out.find("blocked"), std::string::npos);
+}
+
+// What is measured is a measured BRDF like any other, through the cloth too.
+TEST_F(MeasureVerb, TablesAreReadAsMeasuredData) {
+    ASSERT_EQ(nacre("measure 'weave warp=0.5 weft=0.5 pieces=16' --material 'lambert "
+                    "reflectance=0.8,0.4,0.2' --full --turned --bins 4x8 --noise 50% --rays 16384 "
+                    "--quiet -o cloth.csv")
+                  .code,
+              0);
+    const std::unique_ptr<Measured> cloth = read_measured(folder_ / "cloth.csv");
+    EXPECT_EQ(cloth->info().channels, 3);
+    EXPECT_TRUE(cloth->info().transmission_front);
+    double f[3];
+    const Vec3d wi = normalize(Vec3d{0.2, 0., 1.});
+    ASSERT_TRUE(cloth->eval(wi, normalize(Vec3d{-0.5, 0.4, 1.}), f));
+    EXPECT_GT(f[0], 1.5 * f[1]);
+    EXPECT_LT(f[0], 0.8);
+    const Outcome r = nacre("data info cloth.csv");
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.out.find("csv"), std::string::npos) << r.out;
 }
 
 TEST_F(MeasureVerb, GoesOnWithTheSameRays) {
@@ -97,7 +122,7 @@ TEST_F(MeasureVerb, OneWavelengthOfASpectrum) {
         "--theta 0 --bins 2x2 --noise 10% -o m.json");
     ASSERT_EQ(r.code, 0) << r.err;
     const json m = measurement("m.json");
-    EXPECT_EQ(m["lanes"], json({"650 nm"}));
+    EXPECT_EQ(m["lanes"], json({"650nm"}));
     EXPECT_GT(m["incidences"][0]["reflected"][0], 0.5);
 }
 

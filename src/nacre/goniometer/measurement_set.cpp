@@ -21,12 +21,6 @@ bool passes(const IncidenceMeasurement& m) {
     return false;
 }
 
-std::string column(std::string name) {
-    for (char& c : name)
-        if (c == ' ') c = '_';
-    return name;
-}
-
 ordered_json sums_json(const IncidenceMeasurement::Sums& s) {
     ordered_json r = ordered_json::array();
     for (double x : s.sum) r.push_back(x);
@@ -111,26 +105,25 @@ IncidenceMeasurement incidence_of(const json& j, const HemisphereBins& bins) {
 
 }  // namespace
 
-std::string csv_of(const MeasurementSet& set) {
-    std::string text = "theta_i,phi_i,side,theta_o,phi_o";
-    for (const std::string& lane : set.lanes) text += fmt::format(",{}", column(lane));
-    for (const std::string& lane : set.lanes) text += fmt::format(",{}_error", column(lane));
-    text += "\n";
+std::string csv_of(const MeasurementSet& set, bool errors) {
+    std::string text =
+        fmt::format("# virtual gonioreflectometer of nacre{}\n", errors ? ": standard errors" : "");
+    for (const auto& [name, value] : set.facts) text += fmt::format("# {}: {}\n", name, value);
+    text += fmt::format("theta_i,phi_i,theta_o,phi_o,{}\n", fmt::join(set.lanes, ","));
     for (const IncidenceMeasurement& m : set.incidences)
         for (const bool below : {false, true}) {
             if (m.rays == 0 || (below && !passes(m))) continue;
             for (std::size_t i = 0; i < m.bins.size(); ++i) {
                 const DirectionCell c = m.bins.cell(i);
-                text += fmt::format("{:.6g},{:.6g},{},{:.6g},{:.6g}", degrees(m.incidence.theta()),
-                                    degrees(m.incidence.phi()), below ? -1 : 1, degrees(c.theta()),
+                const double theta = degrees(c.theta());
+                text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", degrees(m.incidence.theta()),
+                                    degrees(m.incidence.phi()), below ? 180. - theta : theta,
                                     degrees(c.phi()));
-                std::string errors;
                 for (int k = 0; k < int(set.lanes.size()); ++k) {
                     const MeasuredValue v = below ? m.btdf(i, k) : m.brdf(i, k);
-                    text += fmt::format(",{:.8g}", v.value);
-                    errors += fmt::format(",{:.4g}", v.error);
+                    text += fmt::format(",{:.8g}", errors ? v.error : v.value);
                 }
-                text += errors + "\n";
+                text += '\n';
             }
         }
     return text;

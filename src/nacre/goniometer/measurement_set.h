@@ -12,16 +12,16 @@ namespace nacre {
 struct MeasurementSet {
     /// What was measured and how, in words: what must agree for it to go on.
     std::map<std::string, std::string> facts;
-    std::vector<std::string> lanes;  ///< what the first lanes are: "red", "green", "blue"; "550 nm"
+    std::vector<std::string> lanes;  ///< what the first lanes are: "r", "g", "b"; "550nm"
     std::vector<IncidenceMeasurement> incidences;
     bool complete = true;
 };
 
-/// One row a bin and incidence, with a line of names: theta_i, phi_i, side (1 reflected, -1
-/// transmitted; left out where nothing is), theta_o, phi_o of the middle of the bin, all in
-/// degrees; then the value of each lane, sr^-1, and the standard error of each.
-/// Incidences without rays are left out.
-std::string csv_of(const MeasurementSet& set);
+/// The table that measured/csv.cpp reads: comments with the facts, a line of names, then one row an
+/// incidence and bin: theta_i, phi_i, theta_o, phi_o of the middle of the bin, degrees (above 90:
+/// light that came through), and the value of each lane, sr^-1; or, with `errors`, its standard
+/// error. Incidences without rays are left out.
+std::string csv_of(const MeasurementSet& set, bool errors = false);
 
 /// JSON: facts, lanes, and for each incidence its angles, rays, shares of the light and the arrays
 /// `brdf`, `brdf_error` (and `btdf`, `btdf_error` where light passes), bins by polar angle and then
