@@ -136,17 +136,23 @@ int run(MeasureArguments& o) {
     }
     if (o.resume && output.extension() != ".json")
         throw InputError("--resume needs -o FILE.json, the measurement that goes on");
+    const std::vector<DirectionCell> incidences = incidences_of(o, o.measure.bins);
+    const double gigabytes = double(incidences.size()) * double(o.measure.bins.size()) * 2. *
+                             sizeof(IncidenceMeasurement::Sums) / 1e9;
+    if (gigabytes > 8.)
+        throw InputError(fmt::format(
+            "{} incidences of {}x{} bins take {:.0f} GB: fewer bins, --turned, or parts of them",
+            incidences.size(), o.measure.bins.polar, o.measure.bins.around, gigabytes));
     const MeasuredPatch patch = load_patch(o.input);
     o.measure.wavelengths = patch.wavelengths;
     MeasurementSet set{facts_of(o, patch), patch.lanes, {}, false};
-    for (const DirectionCell& c : incidences_of(o, o.measure.bins))
-        set.incidences.emplace_back(c, o.measure.bins);
+    for (const DirectionCell& c : incidences) set.incidences.emplace_back(c, o.measure.bins);
     if (o.resume && fs::exists(output)) {
         MeasurementSet before = read_measurement(output);
         check_facts(before.facts, set.facts, o.output);
         for (IncidenceMeasurement& m : set.incidences)
             for (IncidenceMeasurement& b : before.incidences)
-                if (m.incidence == b.incidence) m = b;
+                if (b.rays > 0 && m.incidence == b.incidence) m = b;
     }
     const std::atomic<bool>& stop = interrupt_flag();
     const auto go = [&] {

@@ -136,6 +136,15 @@ TEST_F(MeasureVerb, RefusesExactly) {
         <transform name="to_world"><rotate x="1" angle="90"/></transform></shape></scene>)";
     std::ofstream(folder_ / "odd.json") << "{\"format\": 3}";
     std::ofstream(folder_ / "other.json") << "{\"format\": \"picture\"}";
+    const auto file = [&](const char* name, int bins) {
+        std::ofstream(folder_ / name) << fmt::format(
+            R"({{"format": "nacre measurement 1", "complete": true, "facts": {{}}, "lanes": ["r"],
+            "bins": [{0}, {0}], "incidences": [{{"rays": 1, "sums": {{"incidence": [0, 0, 0, 0],
+            "shares": [], "bins": [0, 0, 0]}}}}]}})",
+            bins);
+    };
+    file("short.json", 2);
+    file("many.json", 100'000);
     const std::pair<const char*, const char*> wrong[] = {
         {"measure velvet", "unknown microgeometry 'velvet'"},
         {"measure 'v_grooves angle=95'",
@@ -167,11 +176,15 @@ TEST_F(MeasureVerb, RefusesExactly) {
          "--bins: '0x4' is not of the form POLARxAROUND, 18x36, each from 1 to 1000"},
         {"measure flat --full --theta 10",
          "--full takes light from all bins: leave out --theta and --phi"},
+        {"measure flat --full --bins 100x200",
+         "20000 incidences of 100x200 bins take 51 GB: fewer bins, --turned, or parts of them"},
         {"measure flat -o m.exr", "-o 'm.exr': a measurement is a .csv or a .json"},
         {"measure flat --resume", "--resume needs -o FILE.json, the measurement that goes on"},
         {"measure flat --resume -o other.json",
          "other.json: this is no measurement of 'nacre measure'"},
         {"measure flat --resume -o odd.json", "odd.json: "},
+        {"measure flat --resume -o short.json", "short.json: 3 sums stand where 4 bins need 8"},
+        {"measure flat --resume -o many.json", "many.json: 100000 by 100000 bins are impossible"},
     };
     for (const auto& [arguments, expected] : wrong) {
         const Outcome r = nacre(arguments);

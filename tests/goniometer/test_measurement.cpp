@@ -146,6 +146,32 @@ TEST(Measurement, WhiteFurnaces) {
     }
 }
 
+/// A mirror that keeps a share of the light.
+class DimMirror final : public DeltaBsdf {
+  public:
+    explicit DimMirror(float share) : share_(share) {}
+    std::optional<BsdfSample> sample(const Vec3f& wo, float, Vec2f) const override {
+        return BsdfSample{
+            .wi = {-wo.x, -wo.y, wo.z}, .weight = Spectral(share_), .pdf = 1.f, .delta = true};
+    }
+
+  private:
+    float share_;
+};
+
+// Mirrors that enclose 12 degrees, with light along their middle, send it back after 15 reflections:
+// a straight line past fifteen of them, once they are unfolded. Roulette ends some rays before.
+TEST(Measurement, ManyReflectionsLoseWhatTheyMust) {
+    const DimMirror mirror(0.9f);
+    const Patch patch = make_patch(make_microgeometry("v_grooves angle=84"),
+                                   [&](const SurfacePoint&, const Wavelengths&,
+                                       BsdfScratch&) -> const Bsdf& { return mirror; });
+    const auto m = measured(patch, from(0.), {.bins = {4, 4}}, 60'000);
+    EXPECT_GT(m.reflected(0).error, 0.);
+    EXPECT_NEAR(m.reflected(0).value, std::pow(0.9, 15), 4. * m.reflected(0).error);
+    EXPECT_LT(m.reflected(0).error, 0.01 * m.reflected(0).value);
+}
+
 // Torrance and Sparrow's factor G for each side of alike grooves, in the plane across and beside.
 TEST(Measurement, VGroovesMaskAsTorranceAndSparrowSay) {
     for (double angle : {20., 45., 65.})

@@ -87,8 +87,15 @@ ordered_json incidence_json(const IncidenceMeasurement& m, std::size_t lanes) {
 IncidenceMeasurement incidence_of(const json& j, const HemisphereBins& bins) {
     const json& sums = j.at("sums");
     const auto angle = sums.at("incidence").get<std::array<double, 4>>();
-    IncidenceMeasurement m({angle[0], angle[1], angle[2], angle[3]}, bins);
-    m.rays = j.at("rays").get<std::uint64_t>();
+    const auto rays = j.at("rays").get<std::uint64_t>();
+    const std::size_t count = rays > 0 ? sums.at("bins").size() : 2 * bins.size();
+    if (count != 2 * bins.size())
+        throw InputError(fmt::format("{} sums stand where {} bins need {}", count, bins.size(),
+                                     2 * bins.size()));
+    // Without rays nothing is made for the bins: a short file must not ask for much memory.
+    IncidenceMeasurement m({angle[0], angle[1], angle[2], angle[3]},
+                           rays > 0 ? bins : HemisphereBins{1, 1});
+    m.rays = rays;
     if (m.rays == 0) return m;
     const json& shares = sums.at("shares");
     m.above = sums_of(shares.at(0));
@@ -96,9 +103,6 @@ IncidenceMeasurement incidence_of(const json& j, const HemisphereBins& bins) {
     m.cut = sums_of(shares.at(2));
     m.gone = sums_of(shares.at(3));
     const json& of_bin = sums.at("bins");
-    if (of_bin.size() != m.of_bin.size())
-        throw InputError(fmt::format("{} sums stand where {} bins need {}", of_bin.size(),
-                                     bins.size(), m.of_bin.size()));
     for (std::size_t i = 0; i < m.of_bin.size(); ++i) m.of_bin[i] = sums_of(of_bin[i]);
     return m;
 }

@@ -29,7 +29,7 @@ std::string csv_of(const MeasurementSet& set, bool errors = false);
 /// Of incidences without rays the angles alone.
 std::string json_of(const MeasurementSet& set);
 
-/// What json_of wrote. Throws InputError "FILE: ..." for anything else.
+/// What json_of wrote; incidences without rays have no bins. Throws InputError "FILE: ..." for anything else.
 MeasurementSet read_measurement(const std::filesystem::path& file);
 
 /// Throws InputError that names the first fact in which `found`, of FILE, differs from what is asked
