@@ -78,6 +78,16 @@ TEST(AngleGrid, AnisotropyTransmissionAndGaps) {
     EXPECT_TRUE(value_at(*m, {std::nan(""), 0., 1.}, towards(30., 0.)).empty());
 }
 
+TEST(AngleGrid, HoldsHalfAStepBeforeItsFirstNode) {
+    std::string text = "theta_i,phi_i,theta_o,phi_o,y\n";
+    for (int i = 20; i <= 60; i += 20)
+        for (int o = 0; o <= 60; o += 20)
+            for (int p = 0; p < 360; p += 60) text += fmt::format("{},0,{},{},{}\n", i, o, p, i);
+    const auto m = parsed(text);
+    EXPECT_NEAR(value_at(*m, towards(11., 0.), towards(30., 50.))[0], 20., 1e-12);
+    EXPECT_TRUE(value_at(*m, towards(9., 0.), towards(30., 50.)).empty());
+}
+
 TEST(AngleGrid, OtherTablesAreScattered) {
     const std::string good = made_grid(340);
     const auto kind = [](const std::string& text) {
@@ -87,6 +97,9 @@ TEST(AngleGrid, OtherTablesAreScattered) {
     EXPECT_EQ(kind(good + "40,15,40,35,1\n"), "scat");  // a pair twice
     const std::size_t row = good.find('\n') + 1;
     EXPECT_EQ(kind(good.substr(0, row) + good.substr(good.find('\n', row) + 1)), "scat");
+    // A pair twice and another not at all.
+    EXPECT_EQ(kind(good.substr(0, row) + "0,15,0,15,1\n" + good.substr(good.find('\n', row) + 1)),
+              "scat");
     // Light and view in one plane, and incidences far from each other.
     EXPECT_EQ(kind("theta_i,phi_i,theta_o,phi_o,y\n0,0,0,0,1\n0,0,0,180,1\n20,0,0,0,1\n"
                    "20,0,0,180,1\n0,0,20,0,1\n0,0,20,180,1\n20,0,20,0,1\n20,0,20,180,1\n"),
