@@ -67,6 +67,6 @@ BENCHMARK(felt)
     ->Arg(int(FactorParameters::half_difference))
     ->Iterations(1)
     ->Unit(benchmark::kSecond)
-    ->UseRealTime();
+    ->MeasureProcessCPUTime();
 
 }  // namespace

@@ -2,7 +2,7 @@
 # business and may change or go at any time.
 set(NACRE_PROMISED_HEADERS
     math/*.h text/names.h spectrum/*.h catalogue/{parameter,settings,catalogue}.h image/image.h optics/*.h reflectance/*.h illumination/*.h
-    measured/{merl,half_angle,fit,cuts}.h
+    measured/{merl,half_angle,fit,cuts}.h measured/factor/{factorise,textures,spheres}.h
     layers/{layer,kubelka_munk,hanrahan_krueger,adding_doubling,slab_monte_carlo,mcml_io,skin}.h
     bssrdf/*.h metrics/{metrics,flip,pictures}.h vectors/check.h
     geometry/{mesh,mesh_io,mesh_report,transform,primitives,ray_scene,surface_points,figure}.h

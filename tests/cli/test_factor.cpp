@@ -9,6 +9,7 @@ namespace {
 
 class FactorVerb : public test::CommandLine {};
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using test::Outcome;
 

@@ -145,11 +145,18 @@ TEST(PartialSvd, AgreesWithFullOnBrdfs) {
     }
 }
 
-// Lambert's matrix is kd/pi everywhere: one singular value, kd/pi N.
+// Lambert's matrix is kd/pi everywhere: one singular value, kd/pi N, of any size.
 TEST(PartialSvd, LambertHasOne) {
-    const Svd svd = partial_svd(brdf_matrix("lambert reflectance=0.6", 8), 64, 3);
-    EXPECT_NEAR(svd.sigma[0], 0.6 / 3.14159265358979 * 64., 1e-6);
-    EXPECT_NEAR(svd.sigma[1], 0., 1e-9);
+    for (const int side : {8, 16, 24}) {
+        const int n = side * side;
+        const Numbers m(std::size_t(n) * n, 0.6 / 3.14159265358979);
+        for (const int terms : {1, 3, 16}) {
+            const Svd svd = partial_svd(m, n, terms);
+            EXPECT_NEAR(svd.sigma[0], 0.6 / 3.14159265358979 * n, 1e-9 * n);
+            for (int j = 1; j < terms; ++j) EXPECT_NEAR(svd.sigma[j], 0., 1e-9);
+            expect_vectors(m, n, svd);
+        }
+    }
 }
 
 }  // namespace nacre

@@ -72,7 +72,7 @@ VectorReport check_reflectance(const json& all, const std::string& path, const T
         VectorGroup group{
             .name = name,
             .who = who.evaluator ? std::string(who.evaluator->description().name) : function->who,
-            .tolerance = tolerance_of_files};
+            .tolerance = who.evaluator ? tolerance_of_files : function->tolerance};
         std::set<std::string> omitted;
         try {
             if (who.evaluator)

@@ -16,6 +16,7 @@ using VectorFunction = std::function<std::map<std::string, double>(const nlohman
 struct AnsweredGroup {
     std::string who;  ///< what answers, for the table
     VectorFunction answer;
+    double tolerance = 1e-6;  ///< largest relative deviation, in double precision
 };
 
 /// Who answers the group of that name; empty if nothing does.

@@ -106,7 +106,8 @@ std::vector<MeasuredVectors> measured_vectors(const json& all, const std::string
             throw InputError(fmt::format("group '{}' of '{}': {}", name, path, error.what()));
         }
     };
-    add("merl", merl_vectors, {"half-angle coordinates", merl});
+    // Places in a file are whole numbers of seven digits: none may be the next one.
+    add("merl", merl_vectors, {"half-angle coordinates", merl, 1e-9});
     add("svd", svd_vectors, {"partial SVD", svd});
     return r;
 }

@@ -17,8 +17,8 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 // Of a term that is new, alone; of all together, at most, and until one of them lowers the square of
 // the error by less than this share.
-constexpr int first_sweeps = 12, most_sweeps = 40;
-constexpr double enough = 1e-3;
+constexpr int first_sweeps = 12, most_sweeps = 25;
+constexpr double enough = 2e-3;
 constexpr double exact = 1e-13;  // of the square of the matrix: nothing is left to better
 constexpr int random_starts = 2;
 

@@ -5,6 +5,7 @@
 
 #include <Spectra/MatOp/DenseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -111,6 +112,25 @@ bool is_svd_of(const View& m, const Eigen::VectorXd& sigma, const MatrixXd& u, c
     return left <= sigma[sigma.size() - 1] * (1. + allowed) + allowed * scale;
 }
 
+/// Of a matrix of a rank up to what is asked for and a little more: nothing if it has a higher one.
+/// The images of so many random vectors span those of all (N. Halko, P. Martinsson, J. Tropp 2011,
+/// Finding Structure with Randomness, SIAM Review 53(2)).
+std::optional<Svd> low_rank_svd(const View& m, int terms) {
+    const Eigen::Index n = m.rows(), width = std::min<Eigen::Index>(n, 2 * terms + 20);
+    Random random(stream_key(31, 1));
+    MatrixXd span(n, width);
+    for (double& x : span.reshaped()) x = random.next() - 0.5f;
+    for (int i = 0; i < 2; ++i) {
+        span = i == 0 ? MatrixXd(m * span) : MatrixXd(m * (m.transpose() * span));
+        span = Eigen::HouseholderQR<MatrixXd>(span).householderQ() * MatrixXd::Identity(n, width);
+    }
+    const MatrixXd within = m.transpose() * span;
+    if (!((m - span * within.transpose()).norm() <= 1e-12 * m.norm())) return std::nullopt;
+    const Eigen::JacobiSVD<MatrixXd> svd(within, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return to_svd(svd.singularValues().head(terms), span * svd.matrixV().leftCols(terms),
+                  svd.matrixU().leftCols(terms));
+}
+
 Svd first_terms(Svd svd, int terms) {
     svd.sigma.resize(terms);
     svd.u.resize(terms);
@@ -131,9 +151,13 @@ bool is_symmetric(std::span<const double> matrix, int n) {
 }
 
 Svd full_svd(std::span<const double> matrix, int n) {
-    const Eigen::BDCSVD<MatrixXd> svd(View(matrix.data(), n, n),
-                                      Eigen::ComputeThinU | Eigen::ComputeThinV);
-    return to_svd(svd.singularValues(), svd.matrixU(), svd.matrixV());
+    const View m(matrix.data(), n, n);
+    const Eigen::BDCSVD<MatrixXd> svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    if (is_svd_of(m, svd.singularValues(), svd.matrixU(), svd.matrixV()))
+        return to_svd(svd.singularValues(), svd.matrixU(), svd.matrixV());
+    // Dividing and conquering ends in no numbers where many singular values are 0. This takes longer.
+    const Eigen::JacobiSVD<MatrixXd> slow(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return to_svd(slow.singularValues(), slow.matrixU(), slow.matrixV());
 }
 
 Svd partial_svd(std::span<const double> matrix, int n, int terms) {
@@ -162,9 +186,9 @@ Svd partial_svd(std::span<const double> matrix, int n, int terms) {
             v = e->vectors * svd.matrixV();
         }
     }
-    if (sigma.size() == 0 || !is_svd_of(m, sigma, u, v))
-        return first_terms(full_svd(matrix, n), terms);
-    return to_svd(sigma, u, v);
+    if (sigma.size() > 0 && is_svd_of(m, sigma, u, v)) return to_svd(sigma, u, v);
+    if (auto svd = low_rank_svd(m, terms)) return *svd;
+    return first_terms(full_svd(matrix, n), terms);
 }
 
 }  // namespace nacre

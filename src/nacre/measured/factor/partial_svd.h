@@ -18,7 +18,7 @@ struct Svd {
 /// library Spectra on M of symmetric matrices (whose singular values are the sizes of the
 /// eigenvalues), else on M^T M, the values then taken from M itself. What it finds is checked: M v =
 /// sigma u, M^T u = sigma v, orthonormal, nothing larger left. Matrices of which it does not find
-/// that (of a rank below what is asked for) and small ones are decomposed in full.
+/// that have a low rank, and are decomposed within it, or in full, as small ones are.
 Svd partial_svd(std::span<const double> matrix, int n, int terms);
 /// All of them.
 Svd full_svd(std::span<const double> matrix, int n);
