@@ -1,6 +1,6 @@
 # What nacre needs from Debian 12; `./dev` installs it. Building needs more than using the library.
 include(NacreNeeds)
-foreach(need CLI11 Eigen3)
+foreach(need CLI11 Eigen3 Spectra)
     find_package(${need} QUIET)
     if(NOT ${need}_FOUND)
         list(APPEND NACRE_MISSING ${need})

@@ -58,8 +58,7 @@ void print_table(const ModelComparison& c) {
 
 int compare_models(const CompareOptions& o, const CLI::App& app, const Invocation& invocation) {
     if (o.target.empty())
-        throw InputError(
-            "--models needs --fit-to: a measured BRDF (.binary) or a model, 'ggx alpha=0.2'");
+        throw InputError("--models needs --fit-to: a measured file or a model, 'ggx alpha=0.2'");
     for (const char* option : {"scene", "-D", "--size", "--mode", "--material", "--height-mm",
                                "--techniques", "--spp", "--reference", "--repeats", "--peer"})
         if (app.count(option))

@@ -37,6 +37,7 @@ constexpr Verb verbs[] = {
     {"check", "check models against reference values and their claims", set_up_check},
     {"measure", "measure the BRDF of microgeometry: a virtual gonioreflectometer", set_up_measure},
     {"data", "measured reflectance: what a file holds", set_up_data},
+    {"factor", "factor a BRDF into sums of products of textures", set_up_factor},
     {"info", "say what is in a scene, mesh, image or measured file", set_up_info},
     {"merge", "put together what was rendered with other seeds or in parts", set_up_merge},
     {"diff", "compare two pictures", set_up_diff},

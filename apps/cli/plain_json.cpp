@@ -25,7 +25,7 @@ void print_plain(const ordered_json& json, int indent = 0) {
 
 }  // namespace
 
-void print_json(const ordered_json& json, bool as_json) {
+void print_found(const ordered_json& json, bool as_json) {
     if (as_json)
         fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
     else

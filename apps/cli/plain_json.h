@@ -5,6 +5,6 @@
 namespace nacre::cli {
 
 /// To standard output: JSON, or "key: value" lines, in which what is nested is indented.
-void print_json(const nlohmann::ordered_json& json, bool as_json);
+void print_found(const nlohmann::ordered_json& json, bool as_json);
 
 }  // namespace nacre::cli

@@ -59,8 +59,8 @@ Action set_up_compare(CLI::App& app, const Invocation& invocation) {
                    "reflectance models instead of techniques, separated by commas; settings follow "
                    "a name: 'ward variant=duer,ggx'");
     app.add_option("--fit-to", o->target,
-                   "what the models are fitted to: a measured BRDF of MERL (.binary) or a model "
-                   "with settings, 'cook_torrance m=0.2'");
+                   "what the models are fitted to: a measured file (see 'nacre data info') or a "
+                   "model with settings, 'cook_torrance m=0.2'");
     app.add_option("--metric", o->metric, "of the fit: log or cosine")->capture_default_str();
     app.add_option("--keep", o->keep,
                    "folder where references are kept (default: the user's cache)");

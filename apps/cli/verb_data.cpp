@@ -27,7 +27,7 @@ Subverb set_up_data_info(CLI::App& app) {
     sub->add_option("file", o->file, "a measured file of any format")->required();
     sub->add_flag("--json", o->json, "for programs");
     return {sub, [o] {
-                print_json(describe_measured(o->file), o->json);
+                print_found(describe_measured(o->file), o->json);
                 return success;
             }};
 }

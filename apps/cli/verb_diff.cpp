@@ -74,7 +74,7 @@ ordered_json describe(const Metric& m) {
     return r;
 }
 
-void print_json(const Result& r, const DiffArguments& o) {
+void print_diff_json(const Result& r, const DiffArguments& o) {
     const Metrics& m = r.metrics;
     ordered_json percentiles = ordered_json::array();
     for (const auto& [percent, value] : m.percentiles)
@@ -118,7 +118,7 @@ void print_metric(const char* name, const Metric& m) {
     fmt::print("\n");
 }
 
-void print_plain(const Result& r, const DiffArguments& o) {
+void print_diff_plain(const Result& r, const DiffArguments& o) {
     const Metrics& m = r.metrics;
     const auto side = [](const char* name, const std::string& file,
                          const std::array<double, 3>& mean, bool variance) {
@@ -178,7 +178,7 @@ int run(const DiffArguments& o) {
     r.flip = flip(picture, reference, mask, o.pixels_per_degree);
     r.flip_hdr = flip_hdr(picture, reference, mask, o.pixels_per_degree);
     if (!o.error_map.empty()) write_error_map(r, picture, reference, o.error_map);
-    o.json ? print_json(r, o) : print_plain(r, o);
+    o.json ? print_diff_json(r, o) : print_diff_plain(r, o);
     return success;
 }
 

@@ -161,12 +161,12 @@ struct InfoArguments {
 
 int run(const InfoArguments& o) {
     const std::filesystem::path file = o.file;
-    print_json(has_image_extension(file)      ? describe_image(file)
-               : recognise_measured(file)     ? describe_measured(file)
-               : file.extension() == ".xml"   ? describe_scene(file)
-               : has_measured_extension(file) ? describe_measured(file)
-                                              : describe_mesh(file),
-               o.json);
+    print_found(has_image_extension(file)      ? describe_image(file)
+                : recognise_measured(file)     ? describe_measured(file)
+                : file.extension() == ".xml"   ? describe_scene(file)
+                : has_measured_extension(file) ? describe_measured(file)
+                                               : describe_mesh(file),
+                o.json);
     return success;
 }
 

@@ -133,6 +133,7 @@ TEST(MarginalWarp, EmptySlicesAreUniformAndEdgesHold) {
         EXPECT_LE(q.x, 0.75f);
         EXPECT_GE(q.y, 0.25f);
         EXPECT_LE(q.y, 0.75f);
+        EXPECT_GT(q.density, 0.f);
     }
     EXPECT_EQ(middle.density(0.1f, 0.1f, one), 0.f);
 }

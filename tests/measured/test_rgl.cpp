@@ -218,6 +218,24 @@ TEST(Rgl, SamplesFollowThePdf) {
     }
 }
 
+/// Directions that are no numbers give no sense, but lead nowhere out of the tables either.
+TEST(Rgl, DirectionsThatAreNoNumbersDoNoHarm) {
+    MadeRgl file;
+    file.theta = {0.5f};
+    const auto m = made(file);
+    const float none = std::nanf("");
+    for (const Vec3f& w : {Vec3f(none, 0.f, 1.f), Vec3f(0.f, none, 1.f), Vec3f(0.f, 0.f, none)}) {
+        float out[3];
+        m->brdf().eval(w, {0.f, 0.f, 1.f}, out);
+        m->brdf().eval({0.f, 0.f, 1.f}, w, out);
+        m->brdf().pdf(w, {0.6f, 0.f, 0.8f});
+        m->brdf().sample(w, 0.5f, 0.5f);
+    }
+    const ParameterGrid grid({0.f}, {0.f, 1.f});
+    for (const SliceMix& mix : {grid.at(none, none), grid.at(0.f, none)})
+        for (int k = 0; k < mix.count; ++k) EXPECT_LT(mix.slice[k], 2u);
+}
+
 /// All that is reflected, drawn by `sample`, is the integral over the hemisphere.
 TEST(Rgl, SamplingEstimatesTheAlbedo) {
     MadeRgl file;

@@ -47,7 +47,7 @@ std::unique_ptr<Measured> read_csv(const MeasuredSource& source) {
             source.fail(
                 lines.line(),
                 fmt::format("column {} must be '{}', not '{}'; the names of a table are "
-                            "theta_i,phi_i,theta_o,phi_o and then the values'{}",
+                            "theta_i,phi_i,theta_o,phi_o and then the values{}",
                             k + 1, angle_names[k], k < names.size() ? names[k] : "",
                             line.find(';') != line.npos ? ", with commas between them" : ""));
     table.kind = take_columns(source, lines.line(),

@@ -68,6 +68,7 @@ KlemsMeasured::KlemsMeasured(std::array<KlemsMatrix, 4> matrices, MeasuredInfo i
 
 bool KlemsMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const {
     if (wi.z == 0. || wo.z == 0.) return false;
+    if (!std::isfinite(wi.x + wi.y + wi.z + wo.x + wo.y + wo.z)) return false;
     const bool front = wi.z > 0., through = (wo.z > 0.) != front;
     const KlemsMatrix& m = matrices_[through ? (front ? transmission_front : transmission_back)
                                              : (front ? reflection_front : reflection_back)];

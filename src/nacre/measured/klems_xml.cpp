@@ -55,8 +55,7 @@ class Reader {
         const pugi::xml_parse_result result = document_.load_buffer(
             source_.bytes.data(), source_.bytes.size(), pugi::parse_default, pugi::encoding_utf8);
         if (!result)
-            source_.fail(line_of(result.offset),
-                         fmt::format("the XML breaks off or is damaged ({}); fetch it again",
+            source_.fail(fmt::format("the XML breaks off or is damaged ({}); fetch it again",
                                      result.description()));
         const pugi::xml_node layer =
             document_.child("WindowElement").child("Optical").child("Layer");

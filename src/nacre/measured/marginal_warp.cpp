@@ -7,20 +7,23 @@
 namespace nacre {
 namespace {
 
-/// The interval of ascending `nodes` around `x`: its first node and the share of the second.
+/// The interval of ascending `nodes` around `x`: its first node and the share of the second. What is
+/// no number has a share of 0.
 std::pair<std::uint32_t, float> interval(const std::vector<float>& nodes, float x) {
     if (nodes.size() < 2) return {0, 0.f};
     const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
     const std::size_t i = std::size_t(above - nodes.begin()) - 1;
-    return {std::uint32_t(i), std::clamp((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.f, 1.f)};
+    const float t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+    return {std::uint32_t(i), t > 0.f ? std::min(t, 1.f) : 0.f};
 }
 
 /// A place on an axis of `nodes` nodes: the patch and the share of its second node.
 struct Place {
     int patch;
     float part;
+    /// What is no number stands at 0.
     Place(float x, int nodes) {
-        const float at = std::clamp(x, 0.f, 1.f) * float(nodes - 1);
+        const float at = (x > 0.f ? std::min(x, 1.f) : 0.f) * float(nodes - 1);
         patch = std::min(int(at), nodes - 2);
         part = at - float(patch);
     }

@@ -23,9 +23,17 @@ enum class MerlLookup {
     nearest,  ///< the node below, as the reader that comes with the data does it
 };
 
+/// The node of a file that `nearest` takes, and where it stands in a plane.
+struct MerlNode {
+    int theta_h, theta_d, phi_d;
+    std::size_t position;
+};
+
 class MerlBrdf {
   public:
     static constexpr int theta_h_count = 90, theta_d_count = 90, phi_d_count = 180;
+    /// What stored values of red, green and blue are multiplied by.
+    static constexpr double scale[3] = {1. / 1500., 1.15 / 1500., 1.66 / 1500.};
 
     /// BRDF in sr^-1 in linear red, green and blue; nothing below the horizon and where the file
     /// has no measurement. `linear` leaves out nodes without one and scales the others' weights up;
@@ -33,6 +41,11 @@ class MerlBrdf {
     /// theta_d their values hold.
     std::optional<Vec3d> eval(const Vec3d& wi, const Vec3d& wo,
                               MerlLookup lookup = MerlLookup::linear) const;
+    /// The same in single precision, linear, red, green and blue to `out`; false where the other has
+    /// nothing.
+    bool eval(const Vec3f& wi, const Vec3f& wo, float* out) const;
+    /// The node below the half-angle coordinates of two unit vectors that are not opposite.
+    static MerlNode node_below(const Vec3d& wi, const Vec3d& wo);
     /// A node's value; nothing if not measured.
     std::optional<Vec3d> node(int theta_h, int theta_d, int phi_d) const;
     /// How many nodes have no measurement.

@@ -4,15 +4,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/math/fast.h"
+#include "nacre/math/fast_atan2.h"
+
 namespace nacre {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// Of a unit vector, right near the normal as well, where its z has no digits left.
 float sin_theta_of(const Vec3f& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
-float theta_of(const Vec3f& w) { return std::atan2(sin_theta_of(w), w.z); }
-float phi_of(const Vec3f& w) { return w.x == 0.f && w.y == 0.f ? 0.f : std::atan2(w.y, w.x); }
+
+struct Polar {
+    float theta, phi;
+};
+/// Of two unit vectors at once; right near the normal as well, where z has no digits left.
+std::array<Polar, 2> polar_of(const Vec3f& a, const Vec3f& b) {
+    const Lanes<float, 4> angles =
+        fast_atan2(Lanes<float, 4>(sin_theta_of(a), a.y, sin_theta_of(b), b.y),
+                   Lanes<float, 4>(a.z, a.x, b.z, b.x));
+    return {Polar{angles[0], angles[1]}, Polar{angles[2], angles[3]}};
+}
 float to_unit_theta(float theta) { return std::sqrt(theta * (2.f / pi)); }
 float to_unit_phi(float phi) {
     const float u = (phi + pi) / (2.f * pi);
@@ -30,7 +41,7 @@ float to_solid_angle(float x, float sin_theta_h, float given_h) {
 struct RglBrdf::Given {
     Vec3f w;
     float sign_x = 1.f, sign_y = 1.f;  ///< turn the other one alike
-    float theta, phi;
+    float theta = 0.f, phi = 0.f;
     SliceMix mix;
 };
 
@@ -48,7 +59,7 @@ RglBrdf::RglBrdf(RglTables tables) : t_(std::move(tables)), isotropic_(t_.isotro
     sign_y_ = std::sin(middle) < 0.f ? -1.f : 1.f;
 }
 
-RglBrdf::Given RglBrdf::place(const Vec3f& given) const {
+RglBrdf::Given RglBrdf::turned(const Vec3f& given) const {
     Given g;
     g.w = given;
     if (reduction_ >= 2) {
@@ -59,17 +70,28 @@ RglBrdf::Given RglBrdf::place(const Vec3f& given) const {
         g.w.x *= g.sign_x;
         g.w.y *= g.sign_y;
     }
-    g.theta = theta_of(g.w);
-    g.phi = phi_of(g.w);
+    return g;
+}
+
+RglBrdf::Given RglBrdf::place(const Vec3f& given) const {
+    Given g = turned(given);
+    const Polar polar = polar_of(g.w, g.w)[0];
+    g.theta = polar.theta;
+    g.phi = polar.phi;
     g.mix = t_.incidence.at(g.phi, g.theta);
     return g;
 }
 
-RglBrdf::Half RglBrdf::half_of(const Given& g, const Vec3f& other) const {
+RglBrdf::Half RglBrdf::place(const Vec3f& given, const Vec3f& other, Given& g) const {
+    g = turned(given);
     const Vec3f h = normalize(g.w + Vec3f(other.x * g.sign_x, other.y * g.sign_y, other.z));
-    const float phi = phi_of(h), sin_theta = sin_theta_of(h);
-    return {to_unit_theta(std::atan2(sin_theta, h.z)), to_unit_phi(isotropic_ ? phi - g.phi : phi),
-            sin_theta, dot(g.w, h)};
+    const auto [at_given, at_half] = polar_of(g.w, h);
+    g.theta = at_given.theta;
+    g.phi = at_given.phi;
+    g.mix = t_.incidence.at(g.phi, g.theta);
+    return {to_unit_theta(at_half.theta),
+            to_unit_phi(isotropic_ ? at_half.phi - g.phi : at_half.phi), sin_theta_of(h),
+            dot(g.w, h)};
 }
 
 float RglBrdf::factor(const Given& g, float x, float y) const {
@@ -81,10 +103,12 @@ float RglBrdf::factor(const Given& g, float x, float y) const {
 
 bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out) const {
     if (!(given.z > 0.f && other.z > 0.f)) return false;
-    const Given g = place(given);
-    const Half h = half_of(g, other);
+    Given g;
+    const Half h = place(given, other, g);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
-    const float px = at.x * float(t_.width - 1), py = at.y * float(t_.height - 1);
+    // Directions that are no numbers must not lead out of the table.
+    const auto place_on = [](float u, int nodes) { return u > 0.f ? u * float(nodes - 1) : 0.f; };
+    const float px = place_on(at.x, t_.width), py = place_on(at.y, t_.height);
     const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
     const float tx = px - float(x), ty = py - float(y);
     const float scale = factor(g, h.x, h.y);
@@ -103,9 +127,11 @@ bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out)
 }
 
 Vec3f RglBrdf::direction_of(const Given& g, float x, float y, Vec3f& half) const {
-    const float theta = 0.5f * pi * x * x, s = std::sin(theta);
-    const float phi = (2.f * y - 1.f) * pi + (isotropic_ ? g.phi : 0.f);
-    half = {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
+    // theta = x^2 pi/2 and phi in turns.
+    const Vec2f polar = fast_unit_circle(0.25f * x * x);
+    const float turns = y + 0.5f + (isotropic_ ? g.phi / (2.f * pi) : 0.f);
+    const Vec2f around = fast_unit_circle(turns - std::floor(turns));
+    half = {polar.y * around.x, polar.y * around.y, polar.x};
     const Vec3f w = half * (2.f * dot(g.w, half)) - g.w;
     return {w.x * g.sign_x, w.y * g.sign_y, w.z};
 }
@@ -125,8 +151,8 @@ std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, floa
 
 float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
     if (!(given.z > 0.f && other.z > 0.f)) return 0.f;
-    const Given g = place(given);
-    const Half h = half_of(g, other);
+    Given g;
+    const Half h = place(given, other, g);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
     return at.density * t_.luminance.density(at.x, at.y, g.mix) *
            to_solid_angle(h.x, h.sin_theta, h.given_h);

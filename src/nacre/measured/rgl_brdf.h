@@ -63,8 +63,9 @@ class RglBrdf {
   private:
     struct Given;
     struct Half;
+    Given turned(const Vec3f& given) const;
     Given place(const Vec3f& given) const;
-    Half half_of(const Given& g, const Vec3f& other) const;
+    Half place(const Vec3f& given, const Vec3f& other, Given& g) const;
     Vec3f direction_of(const Given& g, float x, float y, Vec3f& half) const;
     float factor(const Given& g, float x, float y) const;
 

@@ -38,7 +38,7 @@ bool ScatteredMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double>
         return false;
     PointTree::Near near[neighbours + 1];
     const int count = side.tree.nearest(place(wi, wo), neighbours + 1, near);
-    if (near[0].distance > reach_) return false;
+    if (!(near[0].distance <= reach_)) return false;
     double weight[neighbours + 1] = {};
     double sum = 0.;
     if (near[0].distance < same) {  // measured, perhaps several times

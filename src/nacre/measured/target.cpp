@@ -4,6 +4,7 @@
 
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "nacre/measured/factor/textures.h"
 #include "nacre/measured/formats.h"
 
 namespace nacre {
@@ -75,6 +76,8 @@ std::optional<Vec3d> MeasuredTarget::value(const Vec3d& wi, const Vec3d& wo) con
 std::unique_ptr<Target> make_target(const std::string& text) {
     const std::filesystem::path path(text);
     std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return std::make_unique<FactoredBrdf>(read_factors(path));
     bool file = std::filesystem::is_regular_file(path, ignored);
     // A name that ends like a file is one, be it there or not.
     for (const MeasuredFormat* format : measured_formats())

@@ -57,9 +57,9 @@ class MeasuredTarget final : public Target {
     std::string name_;
 };
 
-/// A target from what people write: the path of a measured file (formats.h), or a model with
-/// settings, "ggx alpha=0.2 fresnel=schlick". Throws InputError as read_measured, find_evaluator and
-/// AnyModel do.
+/// A target from what people write: the path of a measured file (formats.h), a folder of factors
+/// (factor/textures.h), or a model with settings, "ggx alpha=0.2 fresnel=schlick". Throws InputError
+/// as read_measured, read_factors, find_evaluator and AnyModel do.
 std::unique_ptr<Target> make_target(const std::string& text);
 
 /// A model as people write it, "ward variant=duer": its name and what is set. Throws InputError.

@@ -9,6 +9,7 @@
 #include "nacre/math/error.h"
 #include "nacre/vectors/file.h"
 #include "nacre/vectors/functions.h"
+#include "nacre/vectors/measured.h"
 #include "nacre/vectors/scattering.h"
 
 namespace nacre {
@@ -61,9 +62,9 @@ void compare(const VectorFunction& answer, const json& vectors, VectorGroup& gro
 
 VectorReport check_reflectance(const json& all, const std::string& path, const TellGroup& tell) {
     VectorReport report;
-    const auto check = [&](const std::string& name, const json& vectors) {
+    const auto check = [&](const std::string& name, const json& vectors,
+                           const std::optional<AnsweredGroup>& function) {
         const GroupModel who = model_of_group(name);
-        const auto function = function_of_group(name);
         if (!who.evaluator && !function) {
             report.not_covered.push_back(name);
             return;
@@ -88,9 +89,10 @@ VectorReport check_reflectance(const json& all, const std::string& path, const T
     };
     for (const char* kind : {"models", "scalars"})
         if (all.contains(kind))
-            for (const auto& [name, vectors] : all[kind].items()) check(name, vectors);
-    for (const char* name : {"merl", "svd"})
-        if (all.contains(name)) report.not_covered.emplace_back(name);
+            for (const auto& [name, vectors] : all[kind].items())
+                check(name, vectors, function_of_group(name));
+    for (const MeasuredVectors& group : measured_vectors(all, path))
+        check(group.name, group.vectors, group.answered);
     return report;
 }
 

@@ -8,8 +8,11 @@
 #include "nacre/optics/fresnel.h"
 #include "nacre/reflectance/eon.h"
 #include "nacre/reflectance/facets.h"
+#include "nacre/reflectance/he_torrance.h"
 #include "nacre/reflectance/schlick.h"
 #include "nacre/reflectance/schlick_ct.h"
+#include "nacre/spectrum/photometry.h"
+#include "nacre/spectrum/planck.h"
 #include "nacre/vectors/file.h"
 
 namespace nacre {
@@ -69,6 +72,38 @@ Answers half_height(const json& v) {
             {"m", width_of_half_height(FacetDistribution::beckmann, beta)},
             {"m_seed_alternative", width_unclipped(beta)}};
 }
+/// He and Torrance's model of unpolarised light; sigma0, tau and lambda in micrometres.
+HeTorrance<double> he_torrance(HeShadowing shadowing, double sigma0, double tau, double lambda,
+                               double n = 1.5, double k = 0.) {
+    return {shadowing, 0., n, k, 0.5, sigma0, tau, 1e3 * lambda};
+}
+Answers he_torrance_parts(const json& v) {
+    const auto model = he_torrance(HeShadowing::smith, parameter(v, "sigma0"), parameter(v, "tau"),
+                                   parameter(v, "lambda"), parameter(v, "n"), parameter(v, "k"));
+    const Vec3d wi = direction(parameter(v, "theta_i_deg") * degree);
+    const Vec3d wo =
+        direction(parameter(v, "theta_o_deg") * degree, parameter(v, "dphi_deg") * degree);
+    const Vec3d sum = wi + wo;
+    const double ratio = dot(sum, sum) / sum.z;
+    return {
+        {"F", model.fresnel(wi, wo)},         {"S", model.facets_seen(wi) * model.facets_seen(wo)},
+        {"g", model.phase2(wi, wo)},          {"G", ratio * ratio},
+        {"D", model.roughness(wi, wo)},       {"sigma", model.effective_deviation(wi, wo)},
+        {"rho_specular_wi", model.mirror(wi)}};
+}
+/// By the trapezoid rule of 10 nm over 380 to 780 nm, as the vectors.
+double planck_luminance(double kelvin, double km, float (*efficiency)(float)) {
+    double sum = 0.;
+    for (int nm = 380; nm <= 780; nm += 10)
+        sum += (nm == 380 || nm == 780 ? 5. : 10.) * double(efficiency(float(nm))) *
+               planck_radiance(nm, kelvin);
+    return km * sum;
+}
+Answers black_body(const json& v) {
+    const double kelvin = parameter(v, "T");
+    return {{"L_photopic", planck_luminance(kelvin, km_photopic, photopic_efficiency)},
+            {"L_scotopic", planck_luminance(kelvin, km_scotopic, scotopic_efficiency)}};
+}
 Answers masking(const json& v) {
     const Vec3d wi = direction(parameter(v, "theta_i_deg") * degree);
     const Vec3d wo =
@@ -79,7 +114,13 @@ Answers masking(const json& v) {
     const double bi = facet_detail::lambda_beckmann(ti), bo = facet_detail::lambda_beckmann(to);
     const double gi = facet_detail::lambda_trowbridge_reitz(ti);
     const double go = facet_detail::lambda_trowbridge_reitz(to);
-    return {{"vcavity", facet_detail::v_cavity(wi, wo)},
+    // The m of Schlick's equation 65 is the deviation of slopes along one axis, m = sqrt(2) sigma0 /
+    // tau here; it lacks the exponential, as what He et al. print does.
+    const auto printed = he_torrance(HeShadowing::printed, m, std::numbers::sqrt2, 0.5);
+    const auto smith = he_torrance(HeShadowing::smith, m, std::numbers::sqrt2, 0.5);
+    return {{"schlick_eq65", printed.facets_seen(wi) * printed.facets_seen(wo)},
+            {"smith_S_eq65_with_exp", smith.facets_seen(wi) * smith.facets_seen(wo)},
+            {"vcavity", facet_detail::v_cavity(wi, wo)},
             {"sancer", 1. / (1. + bi + bo)},
             {"smith_beckmann_sep", 1. / ((1. + bi) * (1. + bo))},
             {"smith_ggx_corr", 1. / (1. + gi + go)},
@@ -163,6 +204,8 @@ std::optional<AnsweredGroup> function_of_group(const std::string& name) {
         {"masking", {"masking", masking}},
         {"schlick_factors", {"schlick", schlick_factors}},
         {"hall_plate", {"transparency", plate}},
+        {"he_internals", {"he_torrance", he_torrance_parts}},
+        {"photometry_planck", {"photometry", black_body}},
         {"fon_albedo", {"eon", fujii_albedo}}};
     if (const auto known = functions.find(name); known != functions.end()) return known->second;
     for (const illumination::Description* model : illumination::models())

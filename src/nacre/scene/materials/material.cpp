@@ -23,6 +23,7 @@ constexpr MaterialType types[] = {
     {"diffuse", make_diffuse},
     {"hk", make_hk},
     {"mask", make_mask},
+    {"measured", make_measured},
     {"null", make_null},
     {"plastic", make_plastic},
     {"roughconductor", make_roughconductor},

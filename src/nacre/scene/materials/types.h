@@ -12,6 +12,7 @@ MaterialPtr make_diffuse(const SceneNode& node, BuildContext& context);
 MaterialPtr make_difftrans(const SceneNode& node, BuildContext& context);
 MaterialPtr make_hk(const SceneNode& node, BuildContext& context);
 MaterialPtr make_mask(const SceneNode& node, BuildContext& context);
+MaterialPtr make_measured(const SceneNode& node, BuildContext& context);
 MaterialPtr make_null(const SceneNode& node, BuildContext& context);
 MaterialPtr make_plastic(const SceneNode& node, BuildContext& context);
 MaterialPtr make_roughconductor(const SceneNode& node, BuildContext& context);

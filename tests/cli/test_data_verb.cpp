@@ -1,0 +1,91 @@
+// nacre data: measured files from the command line.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_line.h"
+
+namespace nacre {
+namespace {
+
+class DataVerb : public test::CommandLine {
+  protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        if (IsSkipped()) return;
+        std::ofstream(folder_ / "paint.txt")
+            << "# blue paint\n# num wls\n2\n400 700\n0.5 0 0.25 3.0 0.1 0.2\n0.5 0 0.25 2.0 -0.1 "
+               "0.2\n";
+        std::ofstream(folder_ / "page.bsdf") << "<html><body>404</body></html>";
+    }
+};
+
+}  // namespace
+
+TEST_F(DataVerb, InfoSaysWhatAFileHolds) {
+    const std::string text =
+        "file: paint.txt\n"
+        "kind: measured reflectance\n"
+        "format: Cornell\n"
+        "description: blue paint\n"
+        "channels: 2 wavelengths, 400 to 700 nm\n"
+        "wavelengths: [400.0,700.0]\n"
+        "parameterisation: scattered directions theta_i, phi_i, theta_s, phi_s\n"
+        "isotropic: true\n"
+        "stored: BSDF\n"
+        "scale: none: sr^-1\n"
+        "sides:\n"
+        "  - reflection front\n"
+        "samples: 2\n"
+        "missing: 0\n"
+        "negative: 1\n"
+        "largest_incidence: 28.6\n"
+        "largest_exit: 14.3\n";
+    EXPECT_EQ(nacre("data info paint.txt").out, text);
+    // `info` knows what it is by its content, too.
+    EXPECT_EQ(nacre("info paint.txt").out, text);
+    const auto json = nlohmann::json::parse(nacre("data info paint.txt --json").out);
+    EXPECT_EQ(json["format"], "Cornell");
+    EXPECT_EQ(json["negative"], 1);
+    EXPECT_EQ(json["wavelengths"], nlohmann::json::array({400., 700.}));
+}
+
+TEST_F(DataVerb, RefusesWhatIsNoData) {
+    const std::string page =
+        "nacre: page.bsdf: holds no measured reflectance that can be read (MERL, RGL, Klems XML, "
+        "Cornell, ALTA, ASTM E1392, CSV): it is a web page, saved instead of the data; fetch the "
+        "file itself\n";
+    const std::pair<const char*, std::string> cases[] = {
+        {"data", "nacre: say what to do with the data: nacre data info FILE\n"},
+        {"data info", "nacre: file is required; see 'nacre help data'\n"},
+        {"data info page.bsdf", page},
+        {"info page.bsdf", page},
+        {"data info none.bsdf", "nacre: none.bsdf: cannot be read; check the name\n"},
+        {"info none.bsdf", "nacre: none.bsdf: cannot be read; check the name\n"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        const test::Outcome r = nacre(arguments);
+        EXPECT_EQ(r.code, 2) << arguments;
+        EXPECT_EQ(r.err, message) << arguments;
+        EXPECT_EQ(r.out, "") << arguments;
+    }
+}
+
+/// Models are fitted to a file of any format.
+TEST_F(DataVerb, OtherFormatsAreTargetsOfFits) {
+    std::ofstream table(folder_ / "lambert.csv");
+    table << "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
+    for (int i = 0; i <= 80; i += 10)
+        for (int o = 0; o <= 80; o += 10)
+            for (int p = 0; p < 360; p += 30)
+                table << fmt::format("{},0,{},{},0.1,0.05,0.2\n", i, o, p);
+    table.close();
+    const test::Outcome r =
+        nacre("compare --models lambert --fit-to lambert.csv -o report --quiet");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto report = nlohmann::json::parse(read(folder_ / "report/report.json"));
+    const std::string text = report["rows"][0].dump();
+    // pi times the BRDF.
+    EXPECT_NE(text.find("reflectance=0.314159,0.15708,0.628319"), std::string::npos) << text;
+}
+
+}  // namespace nacre
