@@ -35,6 +35,7 @@ constexpr Verb verbs[] = {
      set_up_profile},
     {"slab", "reflectance and transmittance of a stack of layers, by every method", set_up_slab},
     {"check", "check models against reference values and their claims", set_up_check},
+    {"measure", "measure the BRDF of microgeometry: a virtual gonioreflectometer", set_up_measure},
     {"data", "measured reflectance: what a file holds", set_up_data},
     {"factor", "factor a BRDF into sums of products of textures", set_up_factor},
     {"info", "say what is in a scene, mesh, image or measured file", set_up_info},

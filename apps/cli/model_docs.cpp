@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/cli/finish_picture.h"
 #include "apps/cli/model_page.h"
 #include "apps/cli/plot.h"
 #include "nacre/catalogue/describe.h"
@@ -22,14 +23,14 @@ namespace fs = std::filesystem;
 /// visible, so that the shape of the highlight is the model's own. The sky's 0.117 is the sRGB code
 /// 96: a background without dither keeps the pictures small. Depth 2: one reflection.
 constexpr const char* sphere_scene = R"(<scene version="3.0.0">
-    <!-- The sphere of the models' pages: nacre render sphere.xml -D model=ward -o ward.png -->
+    <!-- The sphere of the models' pages: nacre render sphere.xml -D model=ward --denoise -o ward.png -->
     <default name="model" value="lambert"/>
     <integrator type="path"><integer name="max_depth" value="2"/></integrator>
     <sensor type="perspective">
         <float name="fov" value="18"/>
         <transform name="to_world"><lookat origin="0, 0, 8" target="0, 0, 0" up="0, 1, 0"/></transform>
-        <sampler type="sobol"><integer name="sample_count" value="256"/></sampler>
-        <film type="hdrfilm"><integer name="width" value="128"/><integer name="height" value="128"/></film>
+        <sampler type="sobol"><integer name="sample_count" value="32"/></sampler>
+        <film type="hdrfilm"><integer name="width" value="256"/><integer name="height" value="256"/></film>
     </sensor>
     <shape type="sphere"><bsdf type="$model"/></shape>
     <shape type="rectangle">
@@ -123,9 +124,9 @@ std::string page_text(const ModelDescription& m) {
     page += fmt::format(
         "\n\n| lit sphere | lobes in the plane of incidence |\n|---|---|\n"
         "| ![sphere]({0}-sphere.png) | ![lobes]({0}-lobe.svg) |\n\n"
-        "Both with the default parameters. The sphere is [sphere.xml](sphere.xml); the lobes are "
-        "the "
-        "BRDF at 550 nm, with the light on the left at the angles of the key.\n",
+        "Both with the default parameters. The sphere is [sphere.xml](sphere.xml), denoised; the "
+        "lobes "
+        "are the BRDF at 550 nm, with the light on the left at the angles of the key.\n",
         m.name);
     page += fmt::format("\n## Formula\n\nBRDF in sr^-1, without the cosine.\n\n```text\n{}\n```\n",
                         m.formula);
@@ -157,8 +158,9 @@ std::string index_text() {
         "|---|---|---|---|---|---|\n";
     for (const ModelDescription* m : models())
         page += fmt::format(
-            "| ![{0}]({0}-sphere.png) | [{0}]({0}.md) | {1} | {2}, {3} | {4} | {5} |\n", m->name,
-            plain(m->title), plain(m->authors), m->year,
+            "| <img src=\"{0}-sphere.png\" alt=\"{0}\" width=\"96\"> | [{0}]({0}.md) | {1} | {2}, "
+            "{3} | {4} | {5} |\n",
+            m->name, plain(m->title), plain(m->authors), m->year,
             over_behaviours(*m, [](const Behaviour& b) { return b.reciprocal; }),
             over_behaviours(*m, [](const Behaviour& b) { return b.energy == Energy::conserves; }));
     return page;
@@ -200,8 +202,16 @@ void write_pictures(const ModelDescription& m, const fs::path& folder,
     options.defines = {{"model", name}};
     const fs::path file = folder / "sphere.xml";
     const Scene scene = load_scene(file, options);
-    save_render(render(scene), scene, folder / (name + "-sphere.png"),
-                {invocation.command_line, version, file.filename().string()});
+    RenderOptions halves;
+    halves.halves = true;
+    const RenderResult result = render(scene, halves);
+    Image picture =
+        render_image(result, scene, {invocation.command_line, version, file.filename().string()});
+    FinishOptions finish;
+    finish.denoise = true;
+    const std::atomic<bool> never{false};  // Ctrl-C ends the program, and leaves no picture noisy
+    finish_picture(picture, result, scene, finish, 0, never);
+    write_image(picture, folder / (name + "-sphere.png"));
 }
 
 }  // namespace

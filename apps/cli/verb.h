@@ -39,6 +39,7 @@ Action set_up_eval(CLI::App& app, const Invocation& invocation);
 Action set_up_profile(CLI::App& app, const Invocation& invocation);
 Action set_up_slab(CLI::App& app, const Invocation& invocation);
 Action set_up_check(CLI::App& app, const Invocation& invocation);
+Action set_up_measure(CLI::App& app, const Invocation& invocation);
 Action set_up_models(CLI::App& app, const Invocation& invocation);
 Action set_up_data(CLI::App& app, const Invocation& invocation);
 Action set_up_factor(CLI::App& app, const Invocation& invocation);

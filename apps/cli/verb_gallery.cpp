@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "apps/cli/finish_picture.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/number_option.h"
 #include "apps/cli/progress_bar.h"
@@ -24,6 +25,7 @@ struct GalleryArguments {
     std::string folder, scenes;
     double scale = 1;
     int spp = 0, threads = 0;
+    FinishOptions finish;
     bool quiet = false;
 };
 
@@ -142,20 +144,27 @@ Image compose(const std::vector<Image>& tiles) {
 std::optional<Image> picture(const fs::path& file, const GalleryArguments& o,
                              const Invocation& invocation) {
     const Scene scene = load(file, o);
+    check_samples(o.finish, scene.sampler.samples);
     const RenderPlan plan = plan_of(scene);
     for (const std::string& w : warnings_of(scene, plan)) say("nacre: warning: {}\n", w);
     ProgressBar bar(o.quiet);
     RenderOptions options;
     options.threads = o.threads;
     options.stop = &interrupt_flag();
+    options.halves = o.finish.denoise;
     options.progress = [&](const RenderProgress& p) { bar.show(p); };
     const RenderResult result = render(scene, plan, FrameSettings::of(scene), options);
     if (!result.complete) return {};
-    return render_image(result, scene,
-                        {invocation.command_line, version, file.filename().string()});
+    Image image =
+        render_image(result, scene, {invocation.command_line, version, file.filename().string()});
+    const Finish finish =
+        finish_picture(image, result, scene, o.finish, o.threads, interrupt_flag());
+    if (o.finish.denoise && !finish.denoised) return {};
+    return image;
 }
 
 int run(const GalleryArguments& o, const Invocation& invocation) {
+    if (o.spp) check_samples(o.finish, o.spp);
     const fs::path scenes = o.scenes.empty() ? shipped_scenes() : fs::path(o.scenes);
     const std::vector<Plate> plates = choose(find_plates(scenes), o.names);
     make_output_folder(o.folder);
@@ -190,6 +199,7 @@ Action set_up_gallery(CLI::App& app, const Invocation& invocation) {
                "size of the pictures, times that of the scenes")
         ->default_str("1");
     add_samples(app, o->spp, "samples a pixel, instead of the scenes'");
+    app.add_flag("--denoise", o->finish.denoise, "take the noise out (biased)");
     app.add_option("--scenes", o->scenes,
                    "folder of the scenes (default: those that come with nacre)");
     add_threads(app, o->threads);

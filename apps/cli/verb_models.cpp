@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/illumination_page.h"
+#include "apps/cli/microgeometry_page.h"
 #include "apps/cli/model_docs.h"
 #include "apps/cli/model_page.h"
 #include "apps/cli/subsurface_page.h"
@@ -119,6 +120,8 @@ int list(bool json) {
         for (const MeasuredMedium* m : measured_media()) r["medium"].push_back(to_json(*m));
         r["spectral_medium"].push_back(skin_json());
         for (const PeerDescription* p : peers()) r["peer"].push_back(peer_json(*p));
+        for (const MicrogeometryDescription* g : microgeometries())
+            r["microgeometry"].push_back(microgeometry_json(*g));
         fmt::print("{}\n", r.dump(2));
         return success;
     }
@@ -147,6 +150,9 @@ int list(bool json) {
         fmt::print("  {:<24} {:<26} {:<26} {}\n", m->name, triple(m->sigma_s_prime),
                    triple(m->sigma_a), m->eta);
     fmt::print("  {:<24} by wavelength; see 'nacre models show skin'\n", "skin");
+    fmt::print("\nmicrogeometry (nacre measure)\n");
+    for (const MicrogeometryDescription* g : microgeometries())
+        fmt::print("  {:<22} {}\n", g->name, g->title);
     fmt::print("\nother renderers (nacre compare --peer)\n");
     for (const PeerDescription* p : peers()) fmt::print("  {:<22} {}\n", p->name, p->title);
     return success;
@@ -232,6 +238,9 @@ int show(const std::string& name, bool json) {
     if (finder.is("skin")) return print_page(json, skin_json(), skin_page());
     for (const PeerDescription* p : peers())
         if (finder.is(p->name)) return print_page(json, peer_json(*p), peer_page(*p));
+    for (const MicrogeometryDescription* g : microgeometries())
+        if (finder.is(g->name))
+            return print_page(json, microgeometry_json(*g), microgeometry_page(*g));
     // Last, because some share their name with a material: those are asked for by number.
     for (const illumination::Description* m : illumination::models())
         if (finder.is(m->name) || std::to_string(m->number) == name)
@@ -252,8 +261,8 @@ Action set_up_models(CLI::App& app, const Invocation& invocation) {
     CLI::App* sub = app.add_subcommand("show", "one of them in full");
     sub->add_option(
            "name", o->name,
-           "a material, medium, diffusion profile, technique, phase function, integrator, peer, or "
-           "the name or number of an illumination model")
+           "a material, medium, diffusion profile, technique, phase function, integrator, peer, "
+           "microgeometry, or the name or number of an illumination model")
         ->required();
     sub->add_flag("--json", o->json, "for programs");
     CLI::App* docs = app.add_subcommand("docs", "write the pages of all reflectance models");

@@ -10,9 +10,9 @@ using test::Outcome;
 
 class Gallery : public test::CommandLine {};
 
-// 23 tiles of 320 x 240, six in a row: 6 x 4 of them, the last one empty.
+// 23 tiles of 200 x 150, six in a row: 6 x 4 of them, the last one empty.
 TEST_F(Gallery, ComposesTheIlluminationModelsIntoAContactSheet) {
-    const Outcome r = nacre("gallery illumination -o out --scale 0.05 --spp 1 --quiet");
+    const Outcome r = nacre("gallery illumination -o out --scale 0.08 --spp 1 --quiet");
     ASSERT_EQ(r.code, 0) << r.err;
     const Image sheet = read_image(folder_ / "out" / "illumination.png");
     EXPECT_EQ(sheet.width, 6 * 16);
@@ -54,7 +54,7 @@ TEST_F(Gallery, RendersEveryPictureWithItsCaption) {
 // Seen from where the light is, Oren and Nayar's rough ball is flatter than Lambert's: near the rim
 // it keeps more of the brightness of its middle. Lambert's keeps the cosine: 0.6 at 0.8 radii.
 TEST_F(Gallery, TheMoonOfOrenAndNayarIsFlat) {
-    ASSERT_EQ(nacre("gallery oren_nayar -o out --scale 0.5 --quiet").code, 0);
+    ASSERT_EQ(nacre("gallery oren_nayar -o out --scale 0.25 --spp 16 --quiet").code, 0);
     const Image moon = read_image(folder_ / "out" / "oren_nayar.png");
     ASSERT_EQ(moon.width, 200);
     // Orthographic, 4.6 units wide: centres at -1.15 and 1.15 of radius 1.
@@ -63,6 +63,39 @@ TEST_F(Gallery, TheMoonOfOrenAndNayarIsFlat) {
     };
     EXPECT_NEAR(at(-1.15 - 0.8) / at(-1.15), 0.6, 0.03);
     EXPECT_GT(at(1.15 + 0.8) / at(1.15), 0.8);
+}
+
+// Four samples of five lamps are mostly noise; fifty times as many say what is true. The filter
+// must take away more than half of the squared error, in a picture and in the tiles of a sheet.
+TEST_F(Gallery, TakesTheNoiseOut) {
+    const auto pictures = [&](const char* options) {
+        EXPECT_EQ(nacre(fmt::format("gallery lafortune illumination -o out --scale 0.05 --scenes "
+                                    "scenes --quiet {}",
+                                    options))
+                      .code,
+                  0);
+        return std::pair(read_image(folder_ / "out" / "lafortune.png"),
+                         read_image(folder_ / "out" / "illumination.png"));
+    };
+    const fs::path scene = fs::path(NACRE_SOURCE_DIR) / "gallery" / "lafortune.xml";
+    fs::create_directories(folder_ / "scenes" / "illumination");
+    fs::copy(scene, folder_ / "scenes" / "lafortune.xml");
+    for (const char* tile : {"01_a.xml", "02_b.xml"})
+        fs::copy(scene, folder_ / "scenes" / "illumination" / tile);
+    const auto truth = pictures("--spp 200"), noisy = pictures("--spp 4"),
+               clean = pictures("--spp 4 --denoise");
+    const auto error = [](const Image& picture, const Image& true_one) {
+        double sum = 0;
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x) {
+                const double d = picture.rgb(x, y).y - true_one.rgb(x, y).y;
+                sum += d * d;
+            }
+        return sum;
+    };
+    ASSERT_EQ(clean.second.width, 2 * clean.first.width);
+    EXPECT_LT(error(clean.first, truth.first), 0.5 * error(noisy.first, truth.first));
+    EXPECT_LT(error(clean.second, truth.second), 0.5 * error(noisy.second, truth.second));
 }
 
 TEST_F(Gallery, AnswersWrongCommandLinesExactlyAndWritesNothing) {
@@ -75,6 +108,9 @@ TEST_F(Gallery, AnswersWrongCommandLinesExactlyAndWritesNothing) {
          "no gallery at 'nowhere'; give the folder gallery of the source tree: --scenes"},
         {"gallery -o out --scenes empty", "'empty' holds no scenes"},
         {"gallery -o out --scale 0", "--scale: '0' is not a number above 0 to 16"},
+        {"gallery -o out --scenes scenes --spp 1 --denoise",
+         "--denoise: 1 sample a pixel does not tell noise from picture; take at least 2 (--spp), "
+         "better 16"},
         {"gallery", "--output is required; see 'nacre help gallery'"},
     };
     fs::create_directories(folder_ / "scenes");

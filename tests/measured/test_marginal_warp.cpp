@@ -127,7 +127,7 @@ TEST(MarginalWarp, EmptySlicesAreUniformAndEdgesHold) {
     // All within the middle: neither end of the unit interval leads to where there is nothing.
     const MarginalWarp middle(
         5, 5, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-    for (const float u : {0.f, 0.5f, 0.99999994f}) {
+    for (const float u : {0.f, 0.5f, 0.99999994f, 1.f}) {
         const auto q = middle.sample(u, u, one);
         EXPECT_GE(q.x, 0.25f);
         EXPECT_LE(q.x, 0.75f);

@@ -61,8 +61,12 @@ TEST(TextReaders, BetweenMeasurementsValuesAreSmooth) {
             for (int p = 0; p <= 180; p += 15)
                 text += fmt::format("{},30,{},{},{:.12g}\n", i, o, 30 + p,
                                     truth(towards(i, 30), towards(o, 30 + p)));
+    text += "33,30,44,31,0.5\n";  // this one makes it no grid
+    text.replace(text.rfind("0.5\n"), 3,
+                 fmt::format("{:.12g}", truth(towards(33, 30), towards(44, 31))));
     const auto m = parsed(text);
     EXPECT_TRUE(m->info().isotropic);
+    EXPECT_EQ(m->info().parameterisation, "scattered directions theta_i, phi_i, theta_o, phi_o");
     Random random(stream_key(27, 9));
     double sum = 0.;
     for (int k = 0; k < 2000; ++k) {
@@ -196,6 +200,33 @@ TEST(TextReaders, CsvKnowsTransmissionAnisotropyAndWavelengths) {
     EXPECT_EQ(value_at(*m, towards(30., 0.), towards(40., 180.)), (std::vector<double>{1., 2.}));
     EXPECT_EQ(value_at(*m, towards(30., 90.), towards(40., 270.)), (std::vector<double>{3., 4.}));
     EXPECT_EQ(value_at(*m, towards(30., 0.), towards(140., 180.)), (std::vector<double>{5., 6.}));
+}
+
+/// Each file is of one format and no other.
+TEST(TextReaders, FormatsAreToldApart) {
+    test::MadeKlems klems;
+    std::string numbers;
+    for (int i = 0; i < 25; ++i) numbers += "1 ";
+    klems.blocks = {{"Reflection Front", numbers}};
+    const std::pair<const char*, std::string> files[] = {
+        {"cornell", "# num wls\n2\n400 500\n0.5 0 0.2 3 1 2\n"},
+        {"cornell", "2\n400 500\n0.5 0 0.2 3 1 2\n"},  // without a word about it
+        {"cornell", "# paint\r\n1 550\r\n0.5 0 0.2 3 1\r\n"},
+        {"alta", "# a slice\n#DIM 1 1\n#PARAM_IN COS_TH\n1 5\n"},
+        {"alta", "#PARAM_IN COS_TH\n#PARAM_OUT INV_STERADIAN\n#DIM 1 1\n1 5\n"},
+        {"astm", "ASTM E 1392-90\nVARS theta_i,phi_i,theta_s,phi_s,Y\n0.5,0,0.2,3,1\n"},
+        {"astm",
+         "MATERIAL paint\nNUM_POINTS 1\nVARS theta_i,phi_i,theta_s,phi_s,Y\n0.5,0,0.2,3,1\n"},
+        {"csv", "\xef\xbb\xbf# table\n\ntheta_i,phi_i,theta_o,phi_o,y\n30,0,40,180,1\n"},
+        {"klems", klems.text()},
+        {"rgl", test::MadeRgl().file().bytes()}};
+    for (const auto& [name, bytes] : files) {
+        const FileStart start{std::string_view(bytes).substr(0, FileStart::length), bytes.size()};
+        for (const MeasuredFormat* format : measured_formats())
+            EXPECT_EQ(format->recognise(start), format->name == name)
+                << name << " " << format->name;
+        EXPECT_EQ(parsed(bytes)->info().format, name);
+    }
 }
 
 }  // namespace nacre

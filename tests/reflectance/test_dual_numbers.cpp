@@ -16,6 +16,7 @@
 #include "nacre/reflectance/models.h"
 #include "nacre/reflectance/oren_nayar.h"
 #include "nacre/reflectance/phong.h"
+#include "nacre/reflectance/poulin_fournier.h"
 #include "nacre/reflectance/registry.h"
 #include "nacre/reflectance/schlick_ct.h"
 #include "nacre/reflectance/torrance_sparrow.h"

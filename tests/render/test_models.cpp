@@ -37,6 +37,8 @@ constexpr Case cases[] = {
     {"he_torrance", "sigma0=0.18 tau=1.5"},
     {"lafortune", "kd=0.3,0.2,0.1 ks=0.6 n=8 cx=0.9 cy=0.9 cz=0.9"},
     {"lafortune", "kd=0 ks=0.7,0.5,0.3 cx=-0.6 cxy=0.2 cxz=0.1 cz=0.8 n=6"},
+    {"poulin_fournier", "kd=0.3,0.2,0.1 ks=0.6 n=40 spacing=2.4 depth=0.7"},
+    {"poulin_fournier", "profile=grooved kd=0.3,0.2,0.1 ks=0.6 n=40 spacing=2.4 depth=0.7"},
 };
 
 class ModelRenders : public RenderTest {

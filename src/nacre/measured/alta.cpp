@@ -188,7 +188,7 @@ const MeasuredFormat& alta_format() {
         .title = "ALTA",
         .ending = ".alta",
         .summary = "text of the ALTA library: scattered samples and slices in many coordinates",
-        .memory = 24.,
+        .memory = 40.,
         .recognise = is_alta,
         .read = read_alta,
     };

@@ -2,16 +2,13 @@
 
 #include <numbers>
 
+#include "nacre/measured/angle_grid.h"
 #include "nacre/measured/number_text.h"
 
 namespace nacre {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-struct Row {
-    double theta_i, phi_i, theta_o, phi_o;
-};
 
 /// Keeps off the horizon itself, where no light falls in or is seen.
 double off_horizon(double theta) {
@@ -23,7 +20,7 @@ class RowReader {
     RowReader(const MeasuredSource& source, const AngleTable& table)
         : source_(source), table_(table) {}
 
-    Row angles(std::size_t line, std::span<const double> numbers) const {
+    AngleRow angles(std::size_t line, std::span<const double> numbers) const {
         return {off_horizon(theta(line, 0, numbers, 0.5 * pi)), phi(line, 1, numbers),
                 off_horizon(theta(line, 2, numbers, pi)), phi(line, 3, numbers)};
     }
@@ -57,7 +54,7 @@ std::unique_ptr<Measured> read_angle_rows(const MeasuredSource& source, LineSpli
                                           AngleTable table) {
     const std::size_t n = std::size_t(table.info.channels), columns = table.first_value + n;
     const RowReader reader(source, table);
-    std::vector<Row> rows;
+    std::vector<AngleRow> rows;
     std::vector<double> values, numbers;
     std::string_view line;
     while (lines.next(line)) {
@@ -80,7 +77,7 @@ std::unique_ptr<Measured> read_angle_rows(const MeasuredSource& source, LineSpli
     // At the normal an azimuth says nothing.
     std::optional<double> azimuth;
     table.info.isotropic = true;
-    for (const Row& r : rows) {
+    for (const AngleRow& r : rows) {
         if (r.theta_i == 0.) continue;
         if (azimuth && std::abs(r.phi_i - *azimuth) > 1e-6) table.info.isotropic = false;
         azimuth = r.phi_i;
@@ -89,6 +86,7 @@ std::unique_ptr<Measured> read_angle_rows(const MeasuredSource& source, LineSpli
         table.info.notes.emplace_back("taken as isotropic: all light comes from one azimuth");
     table.info.scale =
         table.kind == ColumnKind::xyz ? "XYZ, as linear red, green and blue" : "none: sr^-1";
+    if (auto grid = GridMeasured::make(rows, values, table.info)) return grid;
     ScatteredBuilder builder(std::move(table.info));
     for (std::size_t i = 0; i < rows.size(); ++i)
         builder.add(polar_direction(rows[i].theta_i, rows[i].phi_i),

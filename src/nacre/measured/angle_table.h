@@ -20,7 +20,8 @@ struct AngleTable {
 };
 
 /// Reads the rows behind the header. Lines that begin with '#' are comments. theta of the exit may
-/// go to 180 degrees: transmission. The surface is isotropic if all incidences have one azimuth.
+/// go to 180 degrees: transmission. The surface is isotropic if all incidences have one azimuth. Rows
+/// that make a full grid become one (angle_grid.h), others scattered samples (scattered.h).
 /// Throws InputError by line.
 std::unique_ptr<Measured> read_angle_rows(const MeasuredSource& source, LineSplitter& lines,
                                           AngleTable table);

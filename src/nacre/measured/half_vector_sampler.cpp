@@ -39,7 +39,7 @@ Vec3f reflected(const Vec3f& w, const Vec3f& h) { return h * (2.f * dot(w, h)) -
 
 }  // namespace
 
-HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3d&, const Vec3d&)>& value,
+HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3f&, const Vec3f&)>& value,
                                      bool isotropic)
     : isotropic_(isotropic),
       viewers_(isotropic ? std::vector<float>{0.f} : evenly(-pi, pi, phis),
@@ -59,7 +59,7 @@ HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3d&, co
                 const Vec3f wi = reflected(wo, h);
                 const float wo_h = dot(wo, h);
                 if (!(wi.z > 0.f && wo_h > 0.f)) continue;
-                const double v = std::max(value(Vec3d(wi), Vec3d(wo)), 0.);
+                const double v = std::max(value(wi, wo), 0.);
                 const double w = v * area(u, sin_theta_of(h), wo_h);
                 table[k * slice + std::size_t(y) * nodes + x] = float(w);
                 sums[k] += w;

@@ -17,7 +17,7 @@ class HalfVectorSampler {
   public:
     /// `value` is f cos(theta_i), in any unit, of directions above the horizon; called from many
     /// threads. Negative values count as 0.
-    HalfVectorSampler(const std::function<double(const Vec3d& wi, const Vec3d& wo)>& value,
+    HalfVectorSampler(const std::function<double(const Vec3f& wi, const Vec3f& wo)>& value,
                       bool isotropic);
 
     /// Draws wi for a viewer above the horizon; wi may lie below: that sample is lost.

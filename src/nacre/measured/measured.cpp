@@ -37,6 +37,14 @@ void Measured::count_samples() {
     info_.largest_exit = std::acos(std::min(exit, 1.)) * 180. / std::numbers::pi;
 }
 
+bool Measured::eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const {
+    double channels[max_measured_channels];
+    const std::span<double> values(channels, std::size_t(info_.channels));
+    if (!eval(Vec3d(wi), Vec3d(wo), values)) return false;
+    std::copy(values.begin(), values.end(), out.begin());
+    return true;
+}
+
 ChannelColours::ChannelColours(const MeasuredInfo& info) {
     if (info.wavelengths.size() < 2) {
         if (info.channels == 1) weight_.assign(1, Vec3d(1., 1., 1.));

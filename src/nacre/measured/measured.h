@@ -54,6 +54,8 @@ class Measured {
     /// False, and nothing in `out`, where there is no measurement: also below the horizon, unless
     /// the file has transmission or the back side. Safe to call from many threads; no allocation.
     virtual bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const = 0;
+    /// The same in single precision, for renderers: as quick as the format allows.
+    virtual bool eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const;
 
     /// Every place of the table, in the file's order. Directions of missing ones may lie below the
     /// horizon.

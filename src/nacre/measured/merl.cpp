@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "nacre/math/error.h"
+#include "nacre/math/fast_atan2.h"
 #include "nacre/measured/half_angle.h"
 
 namespace nacre {
@@ -160,6 +161,54 @@ std::optional<Vec3d> MerlBrdf::eval(const Vec3d& wi, const Vec3d& wo, MerlLookup
     }
     if (found < 0.5) return std::nullopt;
     return sum / found;
+}
+
+bool MerlBrdf::eval(const Vec3f& wi, const Vec3f& wo, float* out) const {
+    if (!(wi.z > 0.f && wo.z > 0.f)) return false;
+    // Of half and difference vector, h = (wi + wo)/2 and d = (wi - wo)/2, lengths and angles follow
+    // without turning anything: d is at right angles to h, so about h it lies at
+    // phi_d = atan2(d_y h_x - d_x h_y, -d_z |h|) but for a factor.
+    const Vec3f h = 0.5f * (wi + wo), d = 0.5f * (wi - wo);
+    const float cos_d = length(h), sin_d = length(d), across = std::sqrt(h.x * h.x + h.y * h.y);
+    float y = d.y * h.x - d.x * h.y, x = -d.z * cos_d;
+    if (across < 1e-6f * cos_d) {  // theta_h = 0: phi_h is 0 there
+        x = d.x;
+        y = d.y;
+    }
+    if (y < 0.f) {  // the period is pi
+        x = -x;
+        y = -y;
+    }
+    constexpr float pi = std::numbers::pi_v<float>;
+    const float at[3] = {std::sqrt(fast_atan2(across, h.z) * (2.f / pi)) * nh,
+                         fast_atan2(sin_d, cos_d) * (2.f / pi) * nd,
+                         fast_atan2(y, x) * (1.f / pi) * np};
+    int below[3];
+    float part[3];
+    for (int k = 0; k < 3; ++k) {
+        below[k] = std::min(int(at[k]), node_counts[k] - 1);
+        part[k] = std::min(at[k] - float(below[k]), 1.f);
+    }
+    const std::size_t h_step = below[0] < nh - 1 ? std::size_t(nd) * np : 0,
+                      d_step = below[1] < nd - 1 ? np : 0;
+    const Vec3f* first = &values_[position(below[0], below[1], below[2])];
+    const std::ptrdiff_t next = below[2] < np - 1 ? 1 : 1 - np;
+    Vec3f sum;
+    float found = 0.f;
+    for (int k = 0; k < 4; ++k) {
+        const Vec3f* v = first + (k & 1 ? h_step : 0) + (k & 2 ? d_step : 0);
+        const float w = (k & 1 ? part[0] : 1.f - part[0]) * (k & 2 ? part[1] : 1.f - part[1]);
+        const float low = v[0].x < 0.f ? 0.f : w * (1.f - part[2]),
+                    high = v[next].x < 0.f ? 0.f : w * part[2];
+        sum += low * v[0] + high * v[next];
+        found += low + high;
+    }
+    if (found < 0.5f) return false;
+    const float scale_up = 1.f / found;
+    out[0] = sum.x * scale_up;
+    out[1] = sum.y * scale_up;
+    out[2] = sum.z * scale_up;
+    return true;
 }
 
 }  // namespace nacre

@@ -9,6 +9,9 @@ class MerlMeasured final : public Measured {
   public:
     explicit MerlMeasured(MerlBrdf brdf);
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override;
+    bool eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const override {
+        return brdf_.eval(wi, wo, out.data());
+    }
     void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const override;
     const MerlBrdf& brdf() const { return brdf_; }
 

@@ -12,11 +12,10 @@ namespace {
 Vec3f mirrored(const Vec3f& w) { return {w.x, w.y, -w.z}; }
 
 /// The direction with the same azimuth whose angle to the normal is at most `degrees`.
-Vec3d held(const Vec3d& w, double degrees) {
-    const double least = std::cos(degrees * std::numbers::pi / 180.);
+Vec3f held(const Vec3f& w, double degrees) {
+    const float least = float(std::cos(degrees * std::numbers::pi / 180.));
     if (std::abs(w.z) >= least) return w;
-    const double across = std::hypot(w.x, w.y);
-    const double s = std::sqrt(1. - least * least) / across;
+    const float s = std::sqrt((1.f - least * least) / (w.x * w.x + w.y * w.y));
     return {w.x * s, w.y * s, std::copysign(least, w.z)};
 }
 
@@ -32,44 +31,43 @@ MeasuredSurface::MeasuredSurface(std::unique_ptr<Measured> data) : data_(std::mo
     if (!info().reflection_front) return;
     // A lattice of pairs, uniform in the cosines' measure.
     constexpr int n = 1024;
-    std::vector<double> out(std::size_t(info().channels));
+    std::vector<float> out(std::size_t(info().channels));
     int without = 0;
     for (int i = 0; i < n; ++i) {
         const auto part = [i](double step) {
             return float((i + 0.5) * step - std::floor((i + 0.5) * step));
         };
-        const Vec3d wi(
-            square_to_cosine_hemisphere(Vec2f{(i + 0.5f) / n, part(0.7548776662466927)}));
-        const Vec3d wo(
-            square_to_cosine_hemisphere(Vec2f{part(0.5698402909980532), part(0.3247179572447460)}));
+        const Vec3f wi =
+            square_to_cosine_hemisphere(Vec2f{(i + 0.5f) / n, part(0.7548776662466927)});
+        const Vec3f wo =
+            square_to_cosine_hemisphere(Vec2f{part(0.5698402909980532), part(0.3247179572447460)});
         without += !value(wi, wo, out);
     }
     black_ = double(without) / n;
 }
 
-bool MeasuredSurface::value(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const {
-    if (data_->eval(wi, wo, out)) return true;
-    const Vec3d near_wi = held(wi, info().largest_incidence);
-    const Vec3d near_wo = held(wo, info().largest_exit);
+bool MeasuredSurface::value(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const {
+    if (data_->eval_float(wi, wo, out)) return true;
+    const Vec3f near_wi = held(wi, info().largest_incidence);
+    const Vec3f near_wo = held(wo, info().largest_exit);
     if (near_wi == wi && near_wo == wo) return false;
-    return data_->eval(near_wi, near_wo, out);
+    return data_->eval_float(near_wi, near_wo, out);
 }
 
 MeasuredSurface::Side MeasuredSurface::make_side(bool front) const {
     const MeasuredInfo& i = info();
-    const ChannelColours colours(i);
     const auto sampler = [&](bool reflected) {
         return HalfVectorSampler(
-            [&, reflected](const Vec3d& wi, const Vec3d& wo) {
-                double channels[max_measured_channels];
-                const std::span<double> out(channels, std::size_t(i.channels));
-                Vec3d from = wi, to = wo;
+            [&, reflected](const Vec3f& wi, const Vec3f& wo) {
+                float channels[max_measured_channels];
+                const std::span<float> out(channels, std::size_t(i.channels));
+                Vec3f from = wi, to = wo;
                 if (!front) to.z = -to.z;
                 if (front != reflected) from.z = -from.z;
                 if (!value(from, to, out)) return 0.;
                 double sum = 0.;
-                for (const double v : out) sum += std::max(v, 0.);
-                return sum * wi.z;
+                for (const float v : out) sum += std::max(v, 0.f);
+                return sum * double(wi.z);
             },
             i.isotropic);
     };
@@ -92,11 +90,9 @@ void MeasuredSurface::eval(const Vec3f& wi, const Vec3f& wo, std::span<float> ou
         for (std::size_t c = 0; c < n; ++c) out[c] = std::max(out[c], 0.f);
         return;
     }
-    double channels[max_measured_channels];
-    const bool known = value(Vec3d(wi), Vec3d(wo), std::span<double>(channels, n));
+    const bool known = value(wi, wo, out);
     const float cosine = std::abs(wi.z);
-    for (std::size_t c = 0; c < n; ++c)
-        out[c] = known ? std::max(float(channels[c]), 0.f) * cosine : 0.f;
+    for (std::size_t c = 0; c < n; ++c) out[c] = known ? std::max(out[c], 0.f) * cosine : 0.f;
 }
 
 std::optional<Vec3f> MeasuredSurface::sample(const Vec3f& wo, float u1, Vec2f u2) const {

@@ -43,7 +43,7 @@ class MeasuredSurface {
     double black() const { return black_; }
 
   private:
-    bool value(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const;
+    bool value(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const;
     /// One of the two sides that a viewer can be on.
     struct Side {
         std::optional<HalfVectorSampler> reflected, transmitted;

@@ -79,7 +79,7 @@ struct BlinnPhong {
     Product<Product<D, S>, P> eval(const Vec3<D>& wi, const Vec3<D>& wo) const {
         using std::exp2, std::exp;
         using T = Product<D, S>;
-        const T scale = variant == BlinnPhongVariant::normalized ? T(D(1)) * normalization()
+        const T scale = variant == BlinnPhongVariant::normalized ? T(D(1)) * blinn_normalization(n)
                                                                  : T(D(1) / at_least(wi.z, 1e-7));
         const T lobe = half_cosine_power(wi, wo, n);
         return above(wi, wo) * (D(inv_pi) * kd + T(lobe * scale) * ks);
@@ -94,14 +94,6 @@ struct BlinnPhong {
                        at_least(D(D(4) * u), 1e-7);
         const D share = D(specular_share(kd, ks));
         return above(wi, wo) * (share * lobe + (D(1) - share) * D(inv_pi) * wi.z);
-    }
-
-  private:
-    /// Makes the albedo at normal incidence 1.
-    S normalization() const {
-        using std::exp;
-        const S two_to = exp(S(n * S(-0.5 * std::numbers::ln2)));
-        return (n + S(2.)) * (n + S(4.)) * S(0.125 * inv_pi) / (two_to + n);
     }
 };
 

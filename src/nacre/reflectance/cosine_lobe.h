@@ -30,6 +30,15 @@ Product<D, S> half_cosine_power(const Vec3<D>& wi, const Vec3<D>& wo, const S& n
     return exp(T(n * T(D(-0.5) * log1p((h.x * h.x + h.y * h.y) / z2))));
 }
 
+/// The constant that makes the albedo of half_cosine_power 1 at normal incidence, where it is
+/// largest (F. Giesen 2009, Phong Normalization Factors).
+template <class S>
+S blinn_normalization(const S& n) {
+    using std::exp;
+    const S two_to = exp(S(n * S(-0.5 * std::numbers::ln2)));
+    return (n + S(2.)) * (n + S(4.)) * S(0.125 * inv_pi) / (two_to + n);
+}
+
 /// Direction about the unit vector `axis` with density (n+1)/(2 pi) cos^n.
 template <class D, class S>
 Vec3<D> sample_cosine_power(const Vec3<D>& axis, S n, Vec2<D> u) {

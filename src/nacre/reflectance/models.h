@@ -18,7 +18,8 @@
     X(Schlick)               \
     X(SchlickCt)             \
     X(HeTorrance)            \
-    X(Lafortune)
+    X(Lafortune)             \
+    X(PoulinFournier)
 // clang-format on
 
 namespace nacre {

@@ -1,0 +1,25 @@
+#include "apps/cli/microgeometry_page.h"
+
+#include "nacre/catalogue/describe.h"
+
+namespace nacre::cli {
+
+std::string microgeometry_page(const MicrogeometryDescription& g) {
+    std::string page = fmt::format("{}: {}\n\n", g.name, g.title);
+    page += wrapped("  surface     ", g.meaning);
+    for (std::string_view r : g.references) page += wrapped("  after       ", r);
+    if (g.parameters.empty()) return page;
+    page += fmt::format("\n  parameters (nacre measure \"{} name=value ...\")\n", g.name);
+    for (const Parameter& p : g.parameters) page += parameter_text(p);
+    return page;
+}
+
+nlohmann::ordered_json microgeometry_json(const MicrogeometryDescription& g) {
+    nlohmann::ordered_json r = heading_json(
+        {.name = g.name, .kind = "microgeometry", .title = g.title, .parameters = g.parameters});
+    r["meaning"] = g.meaning;
+    r["references"] = g.references;
+    return r;
+}
+
+}  // namespace nacre::cli

@@ -1,0 +1,43 @@
+#pragma once
+// A patch of microgeometry, one period of a surface that goes on for ever, and rays through it.
+#include <functional>
+#include <memory>
+
+#include "nacre/geometry/ray_scene.h"
+#include "nacre/reflectance/bsdf.h"
+#include "nacre/spectrum/wavelengths.h"
+
+namespace nacre {
+
+/// What the material does at a point of the patch; valid until the scratch is reset.
+using SurfaceBsdf =
+    std::function<const Bsdf&(const SurfacePoint&, const Wavelengths&, BsdfScratch&)>;
+
+/// The tile [x, x + width) x [y, y + height) of a surface whose mean normal is +z, repeated in both
+/// directions. `rays` holds all that reaches into the tile, and best a little more: what crosses
+/// the edge of the tile has to stand at the opposite edge too. Lengths in any one unit.
+struct Patch {
+    std::shared_ptr<const RayScene> rays;  ///< built
+    double x = 0., y = 0., width = 1., height = 1.;
+    double bottom = 0., top = 0.;  ///< everything lies between
+    SurfaceBsdf bsdf;
+};
+
+/// A patch of built shapes over the tile that is given, or their whole extent in x and y if its
+/// width is 0. Throws InputError if there is nothing to measure or the tile has no area.
+Patch make_patch(std::shared_ptr<const RayScene> rays, SurfaceBsdf bsdf, double x = 0.,
+                 double y = 0., double width = 0., double height = 0.);
+
+/// How a flight through the patch ends. `lost`: after a hundred thousand periods, for a ray that
+/// hardly rises.
+enum class Fate { meets, leaves_above, leaves_below, lost };
+
+struct Flight {
+    Fate fate = Fate::lost;
+    SurfacePoint at;  ///< where it meets the surface; within the tile or next to its edge
+};
+
+/// From `origin`, in the tile, along the unit vector `direction`, period after period.
+Flight fly(const Patch& patch, Point3f origin, const Vec3f& direction);
+
+}  // namespace nacre
