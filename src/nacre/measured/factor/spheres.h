@@ -9,7 +9,7 @@ namespace nacre {
 
 struct SphereOptions {
     int size = 240;   ///< pixels of a sphere's square
-    int samples = 4;  ///< a side of each pixel's grid of samples
+    int samples = 3;  ///< a side of each pixel's grid of samples
 };
 
 /// A row of spheres of the originals, each in the middle above its row of approximations; all of
