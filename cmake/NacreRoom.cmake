@@ -1,10 +1,10 @@
-# nacre_room(name [LIBS lib...]) makes the room src/nacre/<name> a static library that may use every room declared
+# nacre_room(name [TOGETHER] [LIBS lib...]) makes the room src/nacre/<name> a static library that may use every room declared
 # before it: `nacre_<name>`. The installed library `nacre` is made of all of them (NacreLibrary.cmake).
 set(NACRE_ROOMS "")
 set(NACRE_ROOM_LIBS "")
 
 function(nacre_room name)
-    cmake_parse_arguments(ROOM "" "" "LIBS" ${ARGN})
+    cmake_parse_arguments(ROOM "TOGETHER" "" "LIBS" ${ARGN})
     set(dir ${PROJECT_SOURCE_DIR}/src/nacre/${name})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/*.cpp)
     file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${dir}/*.h)
@@ -23,6 +23,10 @@ function(nacre_room name)
         target_precompile_headers(nacre_${name} REUSE_FROM nacre_math)
     else()
         target_precompile_headers(nacre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src/nacre/precompiled.h)
+    endif()
+    if(ROOM_TOGETHER)  # rooms of words whose headers take longer than they: several files are compiled as one
+        set_target_properties(nacre_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+        target_compile_options(nacre_${name} PRIVATE -Wno-subobject-linkage)
     endif()
     set(NACRE_ROOMS ${NACRE_ROOMS} ${name} PARENT_SCOPE)
     set(NACRE_ROOM_LIBS ${NACRE_ROOM_LIBS} ${ROOM_LIBS} PARENT_SCOPE)

@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/data_verbs.h"
 #include "apps/cli/measured_page.h"
 #include "apps/cli/plain_json.h"
-#include "apps/cli/verb.h"
 #include "nacre/math/error.h"
 
 namespace nacre::cli {
@@ -13,12 +13,6 @@ namespace {
 struct InfoOptions {
     std::string file;
     bool json = false;
-};
-
-/// What one does with a file: a subcommand of its own.
-struct Subverb {
-    CLI::App* app;
-    Action action;
 };
 
 Subverb set_up_data_info(CLI::App& app) {
@@ -36,11 +30,12 @@ Subverb set_up_data_info(CLI::App& app) {
 
 Action set_up_data(CLI::App& app, const Invocation&) {
     app.require_subcommand(0, 1);
-    const std::vector<Subverb> all{set_up_data_info(app)};
+    const std::vector<Subverb> all{set_up_data_info(app), set_up_data_eval(app)};
     return [all] {
         for (const Subverb& sub : all)
             if (sub.app->parsed()) return sub.action();
-        throw InputError("say what to do with the data: nacre data info FILE");
+        throw InputError(
+            "say what to do with the data: nacre data info FILE, nacre data eval FILE");
     };
 }
 

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/direction.h"
 #include "apps/cli/number_option.h"
 #include "apps/cli/plot.h"
 #include "apps/cli/verb.h"
@@ -20,26 +21,6 @@ struct EvalArguments {
     double nm = 550.;
     bool albedo = false, slice = false, lobe = false, curve = false, json = false;
 };
-
-/// A direction from "x,y,z", of any length but 0.
-Vec3d parse_direction(const std::string& text, const char* option) {
-    Vec3d w;
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
-        const auto x = end == text.npos
-                           ? std::nullopt
-                           : number_in(std::string_view(text).substr(begin, end - begin));
-        if (!x)
-            throw InputError(fmt::format(
-                "{} '{}' is not a direction; write x,y,z, such as 0.6,0,0.8", option, text));
-        w[k] = *x;
-        begin = end + 1;
-    }
-    if (!(length(w) > 0.) || !std::isfinite(length(w)))
-        throw InputError(fmt::format("{} '{}' has no direction", option, text));
-    return normalize(w);
-}
 
 /// The angles of incidence of a plot: that of --wi, or a few. A grazing lobe would dwarf the others
 /// in a polar plot.

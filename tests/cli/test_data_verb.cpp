@@ -55,7 +55,8 @@ TEST_F(DataVerb, RefusesWhatIsNoData) {
         "Cornell, ALTA, ASTM E1392, CSV): it is a web page, saved instead of the data; fetch the "
         "file itself\n";
     const std::pair<const char*, std::string> cases[] = {
-        {"data", "nacre: say what to do with the data: nacre data info FILE\n"},
+        {"data",
+         "nacre: say what to do with the data: nacre data info FILE, nacre data eval FILE\n"},
         {"data info", "nacre: file is required; see 'nacre help data'\n"},
         {"data info page.bsdf", page},
         {"info page.bsdf", page},
@@ -86,6 +87,55 @@ TEST_F(DataVerb, OtherFormatsAreTargetsOfFits) {
     const std::string text = report["rows"][0].dump();
     // pi times the BRDF.
     EXPECT_NE(text.find("reflectance=0.314159,0.15708,0.628319"), std::string::npos) << text;
+}
+
+TEST_F(DataVerb, EvalAsksAtDirections) {
+    std::string table = "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
+    for (int i = 0; i <= 60; i += 20)
+        for (int o = 0; o <= 60; o += 20)
+            for (int phi = 0; phi <= 180; phi += 60)
+                table += fmt::format("{},0,{},{},0.3,0.2,0.1\n", i, o, phi);
+    std::ofstream(folder_ / "matte.csv") << table;
+    EXPECT_EQ(nacre("data eval matte.csv --wi 0,0,2 --wo 0.6,0,0.8").out, "r,g,b\n0.3,0.2,0.1\n");
+    // Beyond what was measured the data say nothing, and a renderer holds the last value.
+    std::ofstream(folder_ / "pairs.csv") << "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0,0,1,0,0,1\n"
+                                            "0.6,0,0.8,-0.96,0,0.28\n# below\n0,0,1,0,0,-1\n";
+    EXPECT_EQ(nacre("data eval matte.csv --pairs pairs.csv").out,
+              "r,g,b\n0.3,0.2,0.1\nnan,nan,nan\nnan,nan,nan\n");
+    nacre("data eval matte.csv --pairs pairs.csv --rendered -o seen.csv");
+    std::ifstream file(folder_ / "seen.csv");
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(line, "r,g,b,pdf");
+    const double cosines[] = {1., 0.8, 0.};
+    for (const double cosine : cosines) {
+        std::getline(file, line);
+        double v[4] = {};
+        ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3), 4) << line;
+        EXPECT_NEAR(v[0], 0.3 * cosine, 1e-6);
+        EXPECT_NEAR(v[2], 0.1 * cosine, 1e-6);
+        EXPECT_EQ(v[3] > 0., cosine > 0.);
+    }
+    const std::string where = "nacre: say where: --wi and --wo, or --pairs FILE\n";
+    const std::pair<const char*, std::string> wrong[] = {
+        {"", where},
+        {" --wi 0,0,1", where},
+        {" --wi 0,0,1 --wo 0,0,1 --pairs pairs.csv", where},
+        {" --wi 0,0 --wo 0,0,1",
+         "nacre: --wi '0,0' is not a direction; write x,y,z, such as 0.6,0,0.8\n"},
+        {" --pairs none.csv", "nacre: none.csv: cannot be read; check the name\n"},
+        {" --pairs page.bsdf",
+         "nacre: page.bsdf, line 1: two directions are expected, wi_x,wi_y,wi_z,wo_x,wo_y,wo_z; "
+         "got "
+         "'<html><body>404</body></html>'\n"},
+        {" --pairs pairs.csv -o matte.csv",
+         "nacre: matte.csv: is read as well: it would be overwritten; name another output by "
+         "-o\n"}};
+    for (const auto& [arguments, message] : wrong) {
+        const auto r = nacre(std::string("data eval matte.csv") + arguments);
+        EXPECT_EQ(r.err, message);
+        EXPECT_EQ(r.code, 2) << arguments;
+    }
 }
 
 }  // namespace nacre

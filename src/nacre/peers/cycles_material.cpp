@@ -16,7 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-json triple(const Vec3f& v) { return {v.x, v.y, v.z}; }
 Vec3f bands(const Spectral& s) { return {s[0], s[1], s[2]}; }
 
 json diffuse(json color) { return {{"type", "diffuse"}, {"color", std::move(color)}}; }

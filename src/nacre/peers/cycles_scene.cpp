@@ -15,8 +15,6 @@ using nlohmann::json;
 
 constexpr int most_bounces = 1024;  // Cycles allows no more
 
-json triple(const Vec3f& v) { return {v.x, v.y, v.z}; }
-
 /// nacre counts segments of a path: 2 show light that was scattered once. Cycles counts
 /// scatterings without that first one.
 int max_bounces(const Scene& scene, Substitutions& substitutions) {
@@ -177,6 +175,8 @@ json meshes(const Scene& scene, const std::filesystem::path& folder, bool random
 }
 
 }  // namespace
+
+nlohmann::json triple(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 json cycles_scene(const PeerRequest& request, const std::string& output, bool random_walk,
                   Substitutions& substitutions) {

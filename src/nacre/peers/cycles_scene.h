@@ -53,6 +53,9 @@ class CyclesMaterials {
     int images_ = 0;
 };
 
+/// Three numbers, as scene.json has them.
+nlohmann::json triple(const Vec3f& v);
+
 /// Writes meshes and images into `folder` and returns what goes into scene.json, for a picture
 /// file of that name.
 nlohmann::json cycles_scene(const PeerRequest& request, const std::string& output, bool random_walk,

@@ -28,7 +28,7 @@ int side_on_page(const Image& picture, std::size_t pictures) {
                            std::min(1., std::sqrt(most_pixels / pixels))));
 }
 
-ordered_json columns() {
+ordered_json technique_columns() {
     const auto hidden = [](ordered_json c) {  // only for the diagram
         c["hidden"] = true;
         return c;
@@ -283,7 +283,7 @@ ordered_json describe(const Experiment& e, const Scene& scene, const ExperimentO
             d["notes"].push_back(
                 {{"title", fmt::format("What was replaced for {}", row.peer->title)},
                  {"text", fmt::format("{}", fmt::join(row.measurement.notes, "\n\n"))}});
-    d["columns"] = columns();
+    d["columns"] = technique_columns();
 
     const bool several = std::ranges::any_of(e.rows, [&](const ExperimentRow& r) {
         return !r.peer && r.setting.samples != e.rows.front().setting.samples;

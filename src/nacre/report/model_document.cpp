@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 /// Six digits are enough for people, and keep the page small.
 double brief(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.6g}", x)) : x; }
 
-Json columns() {
+Json model_columns() {
     return {
         number_column(
             "error", "error", "%", 2, "low",
@@ -271,7 +271,7 @@ nlohmann::ordered_json describe(const ModelComparison& c) {
             {"warnings", warnings},
             {"verdict", {{"sentences", advise(c)}}},
             {"notes", notes(c)},
-            {"columns", columns()},
+            {"columns", model_columns()},
             {"rows", rows},
             {"reference", {{"title", c.target}, {"picture", "reference"}}},
             {"plot",

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double pi = std::numbers::pi, degree = pi / 180.;
+constexpr double pi = std::numbers::pi;
 
 /// Value and integrals of one phase function.
 template <class Phase>
@@ -72,7 +72,7 @@ void compare_fresnel(const json& group, Comparison& result) {
     for (const json& row : group.value("directional", json::array())) {
         const double n = row.at("n");
         for (std::size_t i = 0; i < row.at("theta_deg").size(); ++i) {
-            const double angle = row["theta_deg"][i], c = std::cos(angle * degree);
+            const double angle = row["theta_deg"][i], c = std::cos(angle * pi / 180.);
             const auto where = [&](const char* side) {
                 return fmt::format("n = {:g}, {:g} degrees, {}", n, angle, side);
             };

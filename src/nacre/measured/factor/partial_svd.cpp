@@ -3,16 +3,14 @@
 
 #include "nacre/measured/factor/partial_svd.h"
 
-#include <Spectra/MatOp/DenseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
 
 #include "nacre/math/random.h"
+#include "nacre/measured/factor/thin_svd.h"
 
 namespace nacre {
 namespace {
@@ -27,30 +25,36 @@ constexpr int most_restarts = 1000;
 
 std::vector<double> to_vector(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
-Svd to_svd(const Eigen::VectorXd& sigma, const MatrixXd& u, const MatrixXd& v) {
+Svd to_svd(const ThinSvd& svd) {
     Svd r;
-    r.sigma = to_vector(sigma);
-    for (Eigen::Index j = 0; j < sigma.size(); ++j) {
-        r.u.push_back(to_vector(u.col(j)));
-        r.v.push_back(to_vector(v.col(j)));
+    r.sigma = to_vector(svd.sigma);
+    for (Eigen::Index j = 0; j < svd.sigma.size(); ++j) {
+        r.u.push_back(to_vector(svd.u.col(j)));
+        r.v.push_back(to_vector(svd.v.col(j)));
     }
     return r;
 }
 
-/// x -> M^T M x.
-class GramProduct {
+/// x -> M x of a symmetric matrix, otherwise x -> M^T M x.
+class SymmetricProduct {
   public:
     using Scalar = double;
-    explicit GramProduct(const View& m) : m_(m), product_(m.rows()) {}
+    SymmetricProduct(const View& m, bool symmetric)
+        : m_(m), symmetric_(symmetric), product_(m.rows()) {}
     Eigen::Index rows() const { return m_.cols(); }
     Eigen::Index cols() const { return m_.cols(); }
     void perform_op(const double* x, double* y) const {
         product_.noalias() = m_ * Eigen::Map<const Eigen::VectorXd>(x, m_.cols());
-        Eigen::Map<Eigen::VectorXd>(y, m_.cols()).noalias() = m_.transpose() * product_;
+        Eigen::Map<Eigen::VectorXd> result(y, m_.cols());
+        if (symmetric_)
+            result = product_;
+        else
+            result.noalias() = m_.transpose() * product_;
     }
 
   private:
     const View& m_;
+    bool symmetric_;
     mutable Eigen::VectorXd product_;
 };
 
@@ -69,10 +73,10 @@ bool is_orthonormal(const MatrixXd& v) {
 }
 
 /// The eigenvalues of the largest size; nothing if they were not found.
-template <class Operator>
-std::optional<EigenPairs> largest_eigenvalues(Operator& op, int terms) {
+std::optional<EigenPairs> largest_eigenvalues(SymmetricProduct op, int terms) {
     const int n = int(op.rows());
-    Spectra::SymEigsSolver<Operator> solver(op, terms, std::min(n, std::max(2 * terms + 10, 20)));
+    Spectra::SymEigsSolver<SymmetricProduct> solver(op, terms,
+                                                    std::min(n, std::max(2 * terms + 10, 20)));
     Eigen::Index found = 0;
     try {
         solver.init();
@@ -90,7 +94,8 @@ std::optional<EigenPairs> largest_eigenvalues(Operator& op, int terms) {
 }
 
 /// Whether these are singular values and vectors, and no larger value is left.
-bool is_svd_of(const View& m, const Eigen::VectorXd& sigma, const MatrixXd& u, const MatrixXd& v) {
+bool is_svd_of(const View& m, const ThinSvd& svd) {
+    const auto& [sigma, u, v] = svd;
     const double scale = sigma[0];
     if (!is_orthonormal(u) || !is_orthonormal(v)) return false;
     const MatrixXd forward = m * v - u * sigma.asDiagonal();
@@ -122,13 +127,12 @@ std::optional<Svd> low_rank_svd(const View& m, int terms) {
     for (double& x : span.reshaped()) x = random.next() - 0.5f;
     for (int i = 0; i < 2; ++i) {
         span = i == 0 ? MatrixXd(m * span) : MatrixXd(m * (m.transpose() * span));
-        span = Eigen::HouseholderQR<MatrixXd>(span).householderQ() * MatrixXd::Identity(n, width);
+        span = orthonormal_basis(span);
     }
     const MatrixXd within = m.transpose() * span;
     if (!((m - span * within.transpose()).norm() <= 1e-12 * m.norm())) return std::nullopt;
-    const Eigen::JacobiSVD<MatrixXd> svd(within, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    return to_svd(svd.singularValues().head(terms), span * svd.matrixV().leftCols(terms),
-                  svd.matrixU().leftCols(terms));
+    const ThinSvd svd = exact_svd(within);
+    return to_svd({svd.sigma.head(terms), span * svd.v.leftCols(terms), svd.u.leftCols(terms)});
 }
 
 Svd first_terms(Svd svd, int terms) {
@@ -152,41 +156,30 @@ bool is_symmetric(std::span<const double> matrix, int n) {
 
 Svd full_svd(std::span<const double> matrix, int n) {
     const View m(matrix.data(), n, n);
-    const Eigen::BDCSVD<MatrixXd> svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    if (is_svd_of(m, svd.singularValues(), svd.matrixU(), svd.matrixV()))
-        return to_svd(svd.singularValues(), svd.matrixU(), svd.matrixV());
-    // Dividing and conquering ends in no numbers where many singular values are 0. This takes longer.
-    const Eigen::JacobiSVD<MatrixXd> slow(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    return to_svd(slow.singularValues(), slow.matrixU(), slow.matrixV());
+    const ThinSvd svd = quick_svd(m);
+    return to_svd(is_svd_of(m, svd) ? svd : exact_svd(m));
 }
 
 Svd partial_svd(std::span<const double> matrix, int n, int terms) {
     terms = std::min(terms, n);
     if (4 * terms > n) return first_terms(full_svd(matrix, n), terms);
     const View m(matrix.data(), n, n);
-    Eigen::VectorXd sigma;
-    MatrixXd u, v;
-    if (is_symmetric(matrix, n)) {
-        Spectra::DenseSymMatProd<double, Eigen::Lower, Eigen::RowMajor> op(m);
-        if (auto e = largest_eigenvalues(op, terms)) {
+    const bool symmetric = is_symmetric(matrix, n);
+    if (auto e = largest_eigenvalues({m, symmetric}, terms)) {
+        ThinSvd svd;
+        if (symmetric) {
             // A negative eigenvalue is a singular value whose two vectors are opposite.
             const auto sign = [](double x) { return x < 0. ? -1. : 1.; };
-            sigma = e->values.cwiseAbs();
-            v = std::move(e->vectors);
-            u = v * e->values.unaryExpr(sign).asDiagonal();
-        }
-    } else {
-        GramProduct op(m);
-        if (const auto e = largest_eigenvalues(op, terms)) {
+            svd.sigma = e->values.cwiseAbs();
+            svd.v = std::move(e->vectors);
+            svd.u = svd.v * e->values.unaryExpr(sign).asDiagonal();
+        } else {
             // The square roots of small eigenvalues would be noise; M itself knows them better.
-            const Eigen::JacobiSVD<MatrixXd> svd(m * e->vectors,
-                                                 Eigen::ComputeThinU | Eigen::ComputeThinV);
-            sigma = svd.singularValues();
-            u = svd.matrixU();
-            v = e->vectors * svd.matrixV();
+            svd = exact_svd(m * e->vectors);
+            svd.v = e->vectors * svd.v;
         }
+        if (is_svd_of(m, svd)) return to_svd(svd);
     }
-    if (sigma.size() > 0 && is_svd_of(m, sigma, u, v)) return to_svd(sigma, u, v);
     if (auto svd = low_rank_svd(m, terms)) return *svd;
     return first_terms(full_svd(matrix, n), terms);
 }

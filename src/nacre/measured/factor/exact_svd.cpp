@@ -1,0 +1,21 @@
+// g++ 12 takes the undefined registers of its own AVX-512 headers for variables that nobody set.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "nacre/measured/factor/thin_svd.h"
+
+namespace nacre {
+
+ThinSvd exact_svd(const Eigen::MatrixXd& m) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
+}
+
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& m) {
+    return Eigen::HouseholderQR<Eigen::MatrixXd>(m).householderQ() *
+           Eigen::MatrixXd::Identity(m.rows(), m.cols());
+}
+
+}  // namespace nacre

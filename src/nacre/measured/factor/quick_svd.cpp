@@ -1,0 +1,15 @@
+// g++ 12 takes the undefined registers of its own AVX-512 headers for variables that nobody set.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+#include "nacre/measured/factor/thin_svd.h"
+
+#include <Eigen/SVD>
+
+namespace nacre {
+
+ThinSvd quick_svd(const Eigen::MatrixXd& m) {
+    const Eigen::BDCSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
+}
+
+}  // namespace nacre
