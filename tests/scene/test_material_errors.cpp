@@ -30,11 +30,12 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
     const WrongMaterial wrong[] = {
         {bsdf("difuse"), "test.xml:1:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
         {bsdf("xyzzy"),
-         fmt::format("test.xml:1:1: unknown bsdf type 'xyzzy'; known are: blendbsdf, conductor, "
-                     "dielectric, difftrans, diffuse, hk, mask, null, plastic, roughconductor, "
-                     "roughdielectric, "
-                     "roughplastic, thindielectric, twosided, {}",
-                     fmt::join(model_names(), ", "))},
+         fmt::format(
+             "test.xml:1:1: unknown bsdf type 'xyzzy'; known are: blendbsdf, conductor, "
+             "dielectric, difftrans, diffuse, hk, mask, measured, null, plastic, roughconductor, "
+             "roughdielectric, "
+             "roughplastic, thindielectric, twosided, {}",
+             fmt::join(model_names(), ", "))},
         {bsdf("diffuse", {number("reflectence", 0.5)}),
          "test.xml:2:5: <bsdf type=\"diffuse\"> has no parameter 'reflectence'; did you mean "
          "'reflectance'?"},

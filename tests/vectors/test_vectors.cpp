@@ -106,7 +106,8 @@ TEST(ReferenceVectors, AlbedosAgree) {
 
 TEST(ReferenceVectors, EveryModelAnswersAGroup) {
     for (const ModelDescription* m : models()) {
-        EXPECT_FALSE(groups_of(m->name).empty()) << m->name;
+        // The reference has no Poulin-Fournier: tests/reflectance casts rays at the cylinders instead.
+        EXPECT_EQ(groups_of(m->name).empty(), m->name == "poulin_fournier") << m->name;
         for (const ReferenceGroup& g : groups_of(m->name))
             EXPECT_TRUE(data()["models"].contains(g.name) || g.albedos_only) << g.name;
     }
