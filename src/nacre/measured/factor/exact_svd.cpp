@@ -1,7 +1,10 @@
+#ifndef __clang__
 // g++ 12 takes the undefined registers of its own AVX-512 headers for variables that nobody set.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 // Optimised fully it takes a quarter to a third longer to compile.
 #pragma GCC optimize("O1")
+#endif
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

@@ -1,5 +1,8 @@
+#ifndef __clang__
 // g++ 12 takes the undefined registers of its own AVX-512 headers for variables that nobody set.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 
 #include "nacre/measured/factor/partial_svd.h"
 
