@@ -24,7 +24,7 @@ function(nacre_room name)
     else()
         target_precompile_headers(nacre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src/nacre/precompiled.h)
     endif()
-    if(ROOM_TOGETHER)  # rooms of words whose headers take longer than they: several files are compiled as one
+    if(ROOM_TOGETHER)  # rooms of words, where headers take much of the time: several files are compiled as one
         set_target_properties(nacre_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
         target_compile_options(nacre_${name} PRIVATE -Wno-subobject-linkage)
     endif()

@@ -8,6 +8,7 @@
 #include "apps/cli/streams.h"
 #include "nacre/math/error.h"
 #include "nacre/measured/formats.h"
+#include "nacre/measured/number_text.h"
 #include "nacre/measured/surface.h"
 #include "nacre/text/lines.h"
 #include "nacre/text/whole_file.h"
@@ -34,18 +35,12 @@ std::vector<DirectionsAsked> read_pairs(const std::string& path) {
         std::string_view rest = without_comment(line);
         while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
         if (rest.empty() || (lines.line() == 1 && rest.starts_with("wi_x"))) continue;
-        double v[6];
-        int n = 0;
-        bool good = true;
-        for (std::size_t begin = 0; begin <= rest.size() && good; ++n) {
-            const std::size_t end = std::min(rest.find(',', begin), rest.size());
-            const auto x = number_in(rest.substr(begin, end - begin));
-            good = x && n < 6;
-            if (good) v[n] = *x;
-            begin = end + 1;
-        }
+        std::vector<double> v;
+        for (const std::string_view word : comma_words(rest))
+            v.push_back(number_in(word).value_or(std::nan("")));
+        const bool good = v.size() == 6;
         const Vec3d wi = good ? Vec3d{v[0], v[1], v[2]} : Vec3d{},
-                    wo = good && n == 6 ? Vec3d{v[3], v[4], v[5]} : Vec3d{};
+                    wo = good ? Vec3d{v[3], v[4], v[5]} : Vec3d{};
         if (!(length(wi) > 0.) || !(length(wo) > 0.))
             throw InputError(
                 fmt::format("{}, line {}: two directions are expected, "

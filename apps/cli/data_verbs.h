@@ -11,5 +11,6 @@ struct Subverb {
 };
 
 Subverb set_up_data_eval(CLI::App& app);
+Subverb set_up_data_info(CLI::App& app);
 
 }  // namespace nacre::cli

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "apps/cli/number_option.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/plot.h"
 #include "apps/cli/verb.h"
 #include "nacre/math/error.h"
@@ -200,6 +201,11 @@ int run(const FactorArguments& o) {
     std::vector<std::unique_ptr<Target>> targets;
     std::vector<fs::path> folders;
     for (const std::string& text : o.targets) {
+        if (std::error_code none; text.find('=') < text.find(' ') && !fs::exists(text, none))
+            throw InputError(
+                fmt::format("'{}' stands alone: write a model and its settings between quotes, "
+                            "'ward alpha=0.2'",
+                            text));
         targets.push_back(make_target(text));
         if (o.output.empty()) continue;
         fs::path folder = o.output;
@@ -208,6 +214,7 @@ int run(const FactorArguments& o) {
             for (int i = 2; std::ranges::find(folders, folder) != folders.end(); ++i)
                 folder = o.output / fmt::format("{}-{}", folder_name(text), i);
         }
+        refuse_input_as_output(folder, {o.targets.begin(), o.targets.end()});
         make_output_folder(folder);
         folders.push_back(folder);
     }

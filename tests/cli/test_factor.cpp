@@ -65,6 +65,12 @@ TEST_F(FactorVerb, Files) {
     // The folder is a BRDF again: what was factored of it with as many terms is what it is.
     const json again = json::parse(nacre("factor out -R 8 -J 4 --json").out);
     EXPECT_LT(again[0]["errors"][0]["matrix"].get<double>(), 1e-5);
+    // What is read is not overwritten.
+    const std::string before = read(folder_ / "out/g02.exr");
+    EXPECT_EQ(
+        nacre("factor out -R 8 -J 1 -o ./out").err,
+        "nacre: ./out: is read as well: it would be overwritten; name another output by -o\n");
+    EXPECT_EQ(read(folder_ / "out/g02.exr"), before);
     const Outcome two = nacre("factor lambert lambert -R 4 -J 1,2 -o both --spheres 2");
     ASSERT_EQ(two.code, 0) << two.err;
     EXPECT_TRUE(fs::exists(folder_ / "both/lambert/g02.exr"));
@@ -91,6 +97,9 @@ TEST_F(FactorVerb, WrongWords) {
         {"factor lambert --spheres 1", "--spheres needs -o"},
         {"factor lambert -J 2 --spheres 1 -o out", "--spheres 1: it is not among -J 2"},
         {"factor lambart", "unknown reflectance model 'lambart'; did you mean 'lambert'?"},
+        {"factor ward alpha=0.3",
+         "'alpha=0.3' stands alone: write a model and its settings between quotes, 'ward "
+         "alpha=0.2'"},
         {"factor -R 8", "brdf is required; see 'nacre help factor'"},
     };
     for (const auto& [line, message] : cases) {

@@ -18,7 +18,7 @@ TEST(BlockStandardError, IsThatOfTheMeanOfABlock) {
     for (float& v : variance.data) v = 0.04f;
     EXPECT_NEAR(block_standard_error(picture, variance, {}, 4), 0.2 / 4 / 2, 1e-7);
     EXPECT_NEAR(block_standard_error(picture, variance, {}, 8), 0.2 / 8 / 2, 1e-7);
-    EXPECT_EQ(message_of([&] { block_standard_error(picture, variance, {}, 16); }),
+    EXPECT_EQ(error_of([&] { block_standard_error(picture, variance, {}, 16); }),
               "no block of 16 x 16 pixels lies wholly on the object: render a larger picture");
 }
 

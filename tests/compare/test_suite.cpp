@@ -31,7 +31,7 @@ TEST(Suite, HasSixtyCases) {
     EXPECT_EQ(suite_cases("ball").size(), 12u);
     EXPECT_EQ(suite_cases("ball,bust,front").size(), 8u);
     EXPECT_EQ(suite_cases("sheet,low,veined,back").size(), 1u);
-    EXPECT_EQ(message_of([] { suite_cases("ball,cube"); }),
+    EXPECT_EQ(error_of([] { suite_cases("ball,cube"); }),
               "the suite has no 'cube'; its words are: ball, sheet, bowl, bust, slab, high, low, "
               "homogeneous, veined, front, side, back");
 }

@@ -32,10 +32,10 @@ TEST(TechniqueSettings, MistakesAreNamed) {
         {"brdf,brdf", "'brdf profile=dipole 1 spp' is asked for twice"},
     };
     for (const auto& c : cases)
-        EXPECT_EQ(message_of([&] { parse_techniques(c.list, {1}); }), c.message);
+        EXPECT_EQ(error_of([&] { parse_techniques(c.list, {1}); }), c.message);
     // Those that end in the list of all.
     const auto begins = [&](const char* list) {
-        const std::string text = message_of([&] { parse_techniques(list, {1}); });
+        const std::string text = error_of([&] { parse_techniques(list, {1}); });
         return text.substr(0, text.find('?') + 1);
     };
     EXPECT_EQ(begins("twopas"), "unknown technique 'twopas'; did you mean 'two_pass'?");

@@ -1,19 +1,11 @@
 // Descriptions, names, and the messages for wrong parameters.
-#include "nacre/math/error.h"
 #include "tests/illumination/reference.h"
+#include "tests/support/error_of.h"
 
 namespace nacre::illumination {
 namespace {
 
-template <class F>
-std::string error_of(F&& action) {
-    try {
-        action();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
+using test::error_of;
 
 TEST(IlluminationModels, AreFoundByNumberAndName) {
     ASSERT_EQ(models().size(), 23u);

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "nacre/layers/layer.h"
-#include "nacre/math/error.h"
 #include "nacre/math/vec.h"
+#include "tests/support/error_of.h"
 
 namespace nacre::test {
 
@@ -31,17 +31,6 @@ inline constexpr double degree = std::numbers::pi / 180.;
 inline Vec3d direction(double theta, double phi) {
     const double s = std::sin(theta * degree);
     return {s * std::cos(phi * degree), s * std::sin(phi * degree), std::cos(theta * degree)};
-}
-
-/// The message of the InputError that `f` throws; empty if it throws none.
-template <class F>
-std::string error_of(F&& f) {
-    try {
-        f();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace nacre::test

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "nacre/layers/layer.h"
-#include "nacre/math/error.h"
+#include "tests/support/error_of.h"
 
 namespace nacre::test {
 
@@ -29,15 +29,5 @@ inline Layer layer_of(double albedo, double tau, double g, double eta) {
 }
 
 inline double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180.); }
-
-template <class F>
-std::string message(F make) {
-    try {
-        make();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 }  // namespace nacre::test

@@ -359,7 +359,7 @@ TEST(AddingDoubling, WrongInputIsExplained) {
     const LayerStack good{{layer_of(0.9, 1., 0., 1.)}};
     const auto fails = [&](double in, double out, AddingDoublingOptions options = {}) {
         const double i[] = {in}, o[] = {out};
-        return test::message([&] { adding_doubling(good, i, o, options); });
+        return test::error_of([&] { adding_doubling(good, i, o, options); });
     };
     EXPECT_EQ(fails(0., 1.), "the incident cosine 0 must be above 0 and at most 1");
     EXPECT_EQ(fails(1., 1.5), "the outgoing cosine 1.5 must be above 0 and at most 1");
@@ -369,7 +369,7 @@ TEST(AddingDoubling, WrongInputIsExplained) {
               "3 quadrature nodes: must be from 4 to 512, or 0 for the default");
     EXPECT_EQ(fails(1., 1., {1e-4, 513}),
               "513 quadrature nodes: must be from 4 to 512, or 0 for the default");
-    EXPECT_EQ(test::message([&] { adding_doubling({}, {}); }), "a stack needs at least one layer");
+    EXPECT_EQ(test::error_of([&] { adding_doubling({}, {}); }), "a stack needs at least one layer");
     EXPECT_EQ(fails(1., 1.), "no error");
 }
 

@@ -140,9 +140,9 @@ TEST(McmlInput, TextOfAnySystem) {
     const auto runs = parse_mci(joined(good(), 11, "+1.37 1e-999 +100. .9 0.1"), "f");
     EXPECT_EQ(runs[0].stack.layers[0].sigma_a, 0.);
     EXPECT_EQ(runs[0].stack.layers[0].g, 0.9);
-    EXPECT_EQ(test::message([&] { parse_mci(swapped("\r").replace(0, 1, "x 2\r#"), "f"); }),
+    EXPECT_EQ(test::error_of([&] { parse_mci(swapped("\r").replace(0, 1, "x 2\r#"), "f"); }),
               "f:1: the version of the file format should be 1 word, not 2");
-    EXPECT_EQ(test::message([] { parse_mci(std::string("\xff\xfe#\0", 4), "f"); }),
+    EXPECT_EQ(test::error_of([] { parse_mci(std::string("\xff\xfe#\0", 4), "f"); }),
               "f: is text in UTF-16, which is not read; save it as UTF-8 or ASCII");
 }
 
@@ -198,10 +198,10 @@ TEST(McmlInput, WrongFilesAreExplained) {
              Case{13, "# gone", "f:13: the file ends where n below should follow"},
              Case{13, "1.0\n1.0", "f:14: nothing should follow the 1 run that the file announces"},
          })
-        EXPECT_EQ(test::message([&] { parse_mci(joined(good(), line, text), "f"); }), message);
-    EXPECT_EQ(test::message([] { parse_mci("", "f"); }),
+        EXPECT_EQ(test::error_of([&] { parse_mci(joined(good(), line, text), "f"); }), message);
+    EXPECT_EQ(test::error_of([] { parse_mci("", "f"); }),
               "f:0: the file ends where the version of the file format should follow");
-    EXPECT_EQ(test::message([] { read_mci("/nowhere/x.mci"); }), "/nowhere/x.mci: cannot be read");
+    EXPECT_EQ(test::error_of([] { read_mci("/nowhere/x.mci"); }), "/nowhere/x.mci: cannot be read");
 }
 
 TEST(McmlOutput, HoldsTheResultInCentimetres) {

@@ -17,7 +17,7 @@ TEST(SlabMonteCarlo, WrongInputIsExplained) {
         SlabMonteCarloOptions options;
         options.photons = 64;
         change(options);
-        return test::message([&] { slab_monte_carlo(good, options); });
+        return test::error_of([&] { slab_monte_carlo(good, options); });
     };
     using O = SlabMonteCarloOptions;
     EXPECT_EQ(fails([](O&) {}), "no error");
@@ -37,17 +37,17 @@ TEST(SlabMonteCarlo, WrongInputIsExplained) {
               "width of radius bins = 0 must be positive and finite");
     EXPECT_EQ(fails([](O& o) { o.bins.depth = 2, o.bins.depth_width = infinite; }),
               "width of depth bins = inf must be positive and finite");
-    EXPECT_EQ(test::message([] { slab_monte_carlo({}); }), "a stack needs at least one layer");
-    EXPECT_EQ(test::message([] { slab_monte_carlo({{layer_of(1., infinite, 0., 1.)}}); }),
+    EXPECT_EQ(test::error_of([] { slab_monte_carlo({}); }), "a stack needs at least one layer");
+    EXPECT_EQ(test::error_of([] { slab_monte_carlo({{layer_of(1., infinite, 0., 1.)}}); }),
               "layer 1: walks in a half space that absorbs 0 of the light per collision need not "
               "end; give it more absorption or a finite thickness");
     // 1.5 (1e7)^2 collisions to get through.
-    EXPECT_EQ(test::message([] { slab_monte_carlo({{layer_of(1., 1e7, 0., 1.)}}); }),
+    EXPECT_EQ(test::error_of([] { slab_monte_carlo({{layer_of(1., 1e7, 0., 1.)}}); }),
               "Monte Carlo: walks through layers of an optical thickness of 1e+07 with so little "
               "absorption take up to 2e+14 collisions, hours each: adding-doubling answers at "
               "once; or make the layers thinner or their absorption stronger");
     // Absorption ends them long before.
-    EXPECT_EQ(test::message([] {
+    EXPECT_EQ(test::error_of([] {
                   slab_monte_carlo({{layer_of(0.9, 1e7, 0., 1.)}}, {.photons = 64, .bins = {}});
               }),
               "no error");

@@ -78,6 +78,21 @@ TEST(AngleGrid, AnisotropyTransmissionAndGaps) {
     EXPECT_TRUE(value_at(*m, {std::nan(""), 0., 1.}, towards(30., 0.)).empty());
 }
 
+TEST(AngleGrid, HalfACircleStandsForTheOtherOfIsotropicSurfacesOnly) {
+    std::string text = "theta_i,phi_i,theta_o,phi_o,y\n";
+    for (int i = 0; i <= 60; i += 20)
+        for (int p = 0; p <= 180; p += 60)
+            for (int o = 0; o <= 60; o += 20)
+                for (int q = 0; q <= 180; q += 60)
+                    text += fmt::format("{},{},{},{},{}\n", i, p, o, q, 1 + p + q);
+    const auto m = parsed(text);
+    ASSERT_FALSE(m->info().isotropic);
+    ASSERT_EQ(m->info().parameterisation.substr(0, 4), "grid");
+    EXPECT_NEAR(value_at(*m, towards(30., 90.), towards(30., 30.))[0], 121., 1e-9);
+    EXPECT_TRUE(value_at(*m, towards(30., 90.), towards(30., 330.)).empty());
+    EXPECT_TRUE(value_at(*m, towards(30., 270.), towards(30., 30.)).empty());
+}
+
 TEST(AngleGrid, HoldsHalfAStepBeforeItsFirstNode) {
     std::string text = "theta_i,phi_i,theta_o,phi_o,y\n";
     for (int i = 20; i <= 60; i += 20)
@@ -107,6 +122,12 @@ TEST(AngleGrid, OtherTablesAreScattered) {
     EXPECT_EQ(
         kind("theta_i,phi_i,theta_o,phi_o,y\n0,0,0,0,1\n60,0,0,0,1\n0,0,20,0,1\n60,0,20,0,1\n"),
         "scat");
+    // A section through a highlight says nothing of the sides, however fine it is.
+    std::string section = "theta_i,phi_i,theta_o,phi_o,y\n";
+    for (int i = 0; i <= 80; i += 10)
+        for (int o = 0; o <= 80; o += 10) section += fmt::format("{},0,{},180,1\n", i, o);
+    EXPECT_EQ(kind(section), "scat");
+    EXPECT_TRUE(value_at(*parsed(section), towards(60., 0.), towards(60., 90.)).empty());
 }
 
 }  // namespace nacre

@@ -12,26 +12,31 @@
 namespace nacre {
 namespace {
 
-/// A model that is known as far as `limit` degrees, in three channels; light that passes instead of
-/// being reflected if `transmits`.
+enum class Light { is_reflected, passes, does_both };
+
+/// A model that is known as far as `limit` degrees, in three channels; a third of light passes where it
+/// does both.
 class ModelData final : public Measured {
   public:
-    ModelData(AnyModel model, double limit = 90., bool isotropic = true, bool transmits = false)
-        : model_(std::move(model)), least_(std::cos(limit * pi / 180.)), transmits_(transmits) {
+    ModelData(AnyModel model, double limit = 90., bool isotropic = true,
+              Light light = Light::is_reflected)
+        : model_(std::move(model)), least_(std::cos(limit * pi / 180.)), light_(light) {
         info_.isotropic = isotropic;
         info_.largest_incidence = info_.largest_exit = limit;
-        info_.reflection_front = !transmits;
-        info_.transmission_front = info_.transmission_back = transmits;
+        info_.reflection_front = light != Light::passes;
+        info_.reflection_back = light == Light::does_both;
+        info_.transmission_front = info_.transmission_back = light != Light::is_reflected;
     }
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override {
         Vec3d from = wi, to = wo;
-        if (transmits_) {
-            if (wi.z * wo.z >= 0.) return false;
+        const bool passes = wi.z * wo.z < 0.;
+        if (light_ != Light::is_reflected) {
+            if (!passes && light_ == Light::passes) return false;
             from.z = std::abs(wi.z);
             to.z = std::abs(wo.z);
         }
         if (!(from.z > 0. && to.z > 0.) || std::min(from.z, to.z) < least_ - 1e-9) return false;
-        const double f = model_.eval(from, to);
+        const double f = model_.eval(from, to) * (passes && light_ == Light::does_both ? 0.5 : 1.);
         out[0] = f;
         out[1] = 0.5 * f;
         out[2] = -f;
@@ -42,18 +47,13 @@ class ModelData final : public Measured {
   private:
     AnyModel model_;
     double least_;
-    bool transmits_;
-};
-
-struct Surface {
-    const char* name;
-    MeasuredSurface surface;
+    Light light_;
 };
 
 MeasuredSurface surface(const std::string& model, const Settings& settings, double limit = 90.,
-                        bool isotropic = true, bool transmits = false) {
+                        bool isotropic = true, Light light = Light::is_reflected) {
     return MeasuredSurface(
-        std::make_unique<ModelData>(make_model(model, settings), limit, isotropic, transmits));
+        std::make_unique<ModelData>(make_model(model, settings), limit, isotropic, light));
 }
 
 std::vector<Vec3f> viewers(float side) {
@@ -83,8 +83,10 @@ TEST(MeasuredSurface, DrawsByItsDensity) {
     check_sampling(surface("lambert", {}), 1.f, 1);
     check_sampling(surface("ggx", {{"alpha", "0.3"}}), 1.f, 2);
     check_sampling(surface("ward", {{"alpha_u", "0.4"}, {"alpha_v", "0.15"}}, 90., false), 1.f, 3);
-    check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, true), 1.f, 4);
-    check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, true), -1.f, 5);
+    check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, Light::passes), 1.f, 4);
+    check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, Light::passes), -1.f, 5);
+    for (const float side : {1.f, -1.f})
+        check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, Light::does_both), side, 6);
 }
 
 /// What comes back of even light, by samples and by a grid of directions.
@@ -146,7 +148,7 @@ TEST(MeasuredSurface, HoldsTheLastMeasuredAngle) {
 }
 
 TEST(MeasuredSurface, LightThatPasses) {
-    const MeasuredSurface s = surface("ggx", {{"alpha", "0.4"}}, 90., true, true);
+    const MeasuredSurface s = surface("ggx", {{"alpha", "0.4"}}, 90., true, Light::passes);
     EXPECT_TRUE(s.transmits());
     EXPECT_FALSE(s.reflects());
     const Vec3f wo = normalize(Vec3f{0.3f, 0.1f, 0.8f}), wi = normalize(Vec3f{-0.2f, 0.3f, 0.9f});

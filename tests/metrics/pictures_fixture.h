@@ -4,8 +4,8 @@
 #include <string>
 
 #include "nacre/image/image.h"
-#include "nacre/math/error.h"
 #include "nacre/math/random.h"
+#include "tests/support/error_of.h"
 
 namespace nacre::test {
 
@@ -37,16 +37,6 @@ inline Image with_noise(Image image, double sigma, std::uint64_t seed) {
                                 std::cos(6.283185307179586 * double(u.y)));
     }
     return image;
-}
-
-template <class F>
-std::string message_of(F&& f) {
-    try {
-        f();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
 }
 
 }  // namespace nacre::test

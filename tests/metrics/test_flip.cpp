@@ -11,7 +11,7 @@ namespace {
 
 using namespace flip_steps;
 using test::constant;
-using test::message_of;
+using test::error_of;
 using test::waves;
 using test::with_noise;
 
@@ -311,7 +311,7 @@ TEST(Flip, WrongInputIsNamed) {
          },
          "exposures: 0 are too few; there must be at least 1"},
     };
-    for (const auto& [act, message] : cases) EXPECT_EQ(message_of(act), message);
+    for (const auto& [act, message] : cases) EXPECT_EQ(error_of(act), message);
 }
 
 }  // namespace nacre

@@ -8,7 +8,7 @@ namespace nacre {
 namespace {
 
 using test::constant;
-using test::message_of;
+using test::error_of;
 using test::waves;
 using test::with_noise;
 
@@ -261,7 +261,7 @@ TEST(Metrics, WrongInputIsNamed) {
         {[&] { signed_relative_error(a, b); },
          "the picture has 3 x 2 pixels, but the reference has 4 x 2; compare pictures of one size"},
     };
-    for (const auto& [act, message] : cases) EXPECT_EQ(message_of(act), message);
+    for (const auto& [act, message] : cases) EXPECT_EQ(error_of(act), message);
 }
 
 }  // namespace nacre

@@ -2,18 +2,12 @@
 #include "nacre/reflectance/registry.h"
 
 #include "nacre/math/error.h"
+#include "tests/support/error_of.h"
 
 namespace nacre {
 namespace {
 
-std::string message_of(const std::function<void()>& f) {
-    try {
-        f();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return {};
-}
+using test::error_of;
 
 }  // namespace
 
@@ -42,7 +36,7 @@ TEST(Registry, SaysWhatIsWrongWithParameters) {
     for (const auto& [text, expected] : wrong) {
         const std::string_view all = text;
         const std::size_t space = all.find(' ');
-        EXPECT_EQ(message_of([&] {
+        EXPECT_EQ(error_of([&] {
                       make_model(all.substr(0, space), parse_settings(all.substr(space + 1)));
                   }),
                   expected);
@@ -50,10 +44,9 @@ TEST(Registry, SaysWhatIsWrongWithParameters) {
 }
 
 TEST(Registry, SuggestsTheNearestModel) {
-    EXPECT_EQ(message_of([] { make_model("fong"); }).substr(0, 33),
+    EXPECT_EQ(error_of([] { make_model("fong"); }).substr(0, 33),
               "unknown reflectance model 'fong';");
-    EXPECT_NE(message_of([] { make_model("wart"); }).find("did you mean 'ward'?"),
-              std::string::npos);
+    EXPECT_NE(error_of([] { make_model("wart"); }).find("did you mean 'ward'?"), std::string::npos);
 }
 
 TEST(Registry, DefaultsAndAliasesAreTheDescriptions) {
@@ -78,7 +71,7 @@ TEST(Registry, ColoursVaryWithTheWavelength) {
 TEST(Registry, BulkEvaluationNeedsEquallyManyDirections) {
     std::vector<Vec3f> wi(3, {0.f, 0.f, 1.f}), wo(2, {0.f, 0.f, 1.f});
     std::vector<float> out(3);
-    EXPECT_EQ(message_of([&] { make_model("phong").eval_many(wi, wo, out); }),
+    EXPECT_EQ(error_of([&] { make_model("phong").eval_many(wi, wo, out); }),
               "phong: 3 directions wi, 2 directions wo and 3 results must be equally many");
 }
 

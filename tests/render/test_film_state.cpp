@@ -16,7 +16,7 @@
 namespace nacre {
 namespace {
 
-using test::message_of;
+using test::error_of;
 
 FilmSettings settings(const char* filter) {
     FilmSettings s;
@@ -128,7 +128,7 @@ TEST(FilmState, FilmsOfOtherPicturesAreNotAdded) {
     FilmSettings s = settings("box");
     s.crop_x = 1, s.crop_y = 1, s.crop_width = 3, s.crop_height = 3;
     Film window(s);
-    EXPECT_EQ(message_of([&] { window.merge(film); }),
+    EXPECT_EQ(error_of([&] { window.merge(film); }),
               "a film of 7 x 5 pixels, window 0,0 7x5, box filter cannot be added to one of 7 x 5 "
               "pixels, window 1,1 3x3, box filter: they must show the same picture, and its window "
               "must lie within this one's");
@@ -147,29 +147,29 @@ TEST(FilmState, IsAPictureWithVariance) {
     EXPECT_EQ(image.metadata.at("nacre.samples"), "4");
     expect_same(FilmState::load(file).film, film);
     std::filesystem::remove(file);
-    EXPECT_EQ(message_of([&] { FilmState::load(file); }), "it cannot be read");
+    EXPECT_EQ(error_of([&] { FilmState::load(file); }), "it cannot be read");
 }
 
 TEST(FilmState, WhatIsDamagedIsNotTaken) {
     Film film(settings("box"));
     add_samples(film, 0, 4);
     const std::string bytes = FilmState::encode(film, {{"samples", "4"}});
-    EXPECT_NE(message_of([&] { FilmState::decode("nothing"); }), "");
+    EXPECT_NE(error_of([&] { FilmState::decode("nothing"); }), "");
     for (std::size_t n : {std::size_t(0), std::size_t(100), bytes.size() / 2, bytes.size() - 1})
-        EXPECT_NE(message_of([&] { FilmState::decode(bytes.substr(0, n)); }), "") << n;
+        EXPECT_NE(error_of([&] { FilmState::decode(bytes.substr(0, n)); }), "") << n;
     const auto replaced = [&](const std::string& from, const std::string& to) {
         std::string text = bytes;
         const std::size_t at = text.find(from);
         EXPECT_NE(at, text.npos);
         return text.replace(at, from.size(), to);
     };
-    EXPECT_EQ(message_of([&] { FilmState::decode(replaced("7 5 0 0 7 5", "7 6 0 0 7 6")); }),
+    EXPECT_EQ(error_of([&] { FilmState::decode(replaced("7 5 0 0 7 5", "7 6 0 0 7 6")); }),
               "it holds pixels of another film");
-    EXPECT_EQ(message_of([&] { FilmState::decode(replaced("7 5 0 0 7 5", "7 x 0 0 7 5")); }),
+    EXPECT_EQ(error_of([&] { FilmState::decode(replaced("7 5 0 0 7 5", "7 x 0 0 7 5")); }),
               "it holds 'x' in nacre.film");
-    EXPECT_EQ(message_of([&] { FilmState::decode(replaced("sum.G.low", "sum.X.low")); }),
+    EXPECT_EQ(error_of([&] { FilmState::decode(replaced("sum.G.low", "sum.X.low")); }),
               "it holds no sum.G.low");
-    EXPECT_EQ(message_of([&] { FilmState::decode(replaced("nacre.film", "nacre.fulm")); }),
+    EXPECT_EQ(error_of([&] { FilmState::decode(replaced("nacre.film", "nacre.fulm")); }),
               "it holds no nacre.film");
 }
 

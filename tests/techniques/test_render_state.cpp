@@ -14,7 +14,7 @@
 namespace nacre {
 namespace {
 
-using test::message_of;
+using test::error_of;
 namespace fs = std::filesystem;
 
 struct Kept {
@@ -153,7 +153,7 @@ TEST(RenderState, SaysAllOfItInItsFile) {
     for (const char* parts : {"", "1 2 3", "1 2 3 4 5 6 7", "x 2 0 0 6 4", "-1 2 0 0 6 4",
                               "1 -2 0 0 6 4", "1 2 0 0 6 99999999999"}) {
         FilmState::save(s.film, {{"parts", parts}}, file);
-        EXPECT_EQ(message_of([&] { RenderState::load(file); }),
+        EXPECT_EQ(error_of([&] { RenderState::load(file); }),
                   fmt::format("{}: is not the state of a render: it holds parts = '{}'",
                               file.string(), parts));
     }

@@ -16,6 +16,14 @@ double normal_number(Random& random) {
     return std::sqrt(-2. * std::log(1. - double(u.x))) * std::cos(2. * pi * double(u.y));
 }
 
+void check_resolution(const char* name, int points, double lengths) {
+    if (points < 4. * lengths)
+        throw InputError(fmt::format(
+            "{}: {} points do not resolve {:.6g} correlation lengths: at least {:.0f}, or fewer "
+            "lengths",
+            name, points, lengths, std::ceil(4. * lengths)));
+}
+
 /// Amplitudes of the waves 0..most along one axis of a period of `lengths` correlation lengths: the
 /// square root of the spectrum of the correlation exp(-d^2/l^2), exp(-(k l)^2/4).
 std::vector<double> amplitudes(double lengths) {
@@ -45,11 +53,7 @@ double slope_of(const std::vector<double>& heights, int columns, int rows, doubl
 Microgeometry make_gaussian(const ParameterValues& v) {
     const int n = v.whole("points");
     const double lengths = v.number("lengths"), alpha = v.number("alpha");
-    if (n < 4. * lengths)
-        throw InputError(fmt::format(
-            "gaussian: {} points do not resolve {:.6g} correlation lengths: at least {:.0f}, or "
-            "fewer lengths",
-            n, lengths, std::ceil(4. * lengths)));
+    check_resolution("gaussian", n, lengths);
     Random random(stream_key(std::uint64_t(v.whole("seed")), 0x67617573));
     const std::vector<double> amplitude = amplitudes(lengths);
     const int most = int(amplitude.size()) - 1;
@@ -90,11 +94,7 @@ Microgeometry make_gaussian(const ParameterValues& v) {
 Microgeometry make_brushed(const ParameterValues& v) {
     const int n = v.whole("points");
     const double lengths = v.number("lengths");
-    if (n < 4. * lengths)
-        throw InputError(fmt::format(
-            "brushed: {} points do not resolve {:.6g} correlation lengths: at least {:.0f}, or "
-            "fewer lengths",
-            n, lengths, std::ceil(4. * lengths)));
+    check_resolution("brushed", n, lengths);
     Random random(stream_key(std::uint64_t(v.whole("seed")), 0x62727573));
     const std::vector<double> amplitude = amplitudes(lengths);
     std::vector<double> heights(std::size_t(n), 0.);

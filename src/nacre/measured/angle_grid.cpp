@@ -20,7 +20,8 @@ AngleAxis::AngleAxis(std::vector<double> values, bool azimuth) : azimuth_(azimut
     if (!azimuth || nodes_.size() < 2) return;
     const double open = 2. * pi - (nodes_.back() - nodes_.front());
     round_ = open <= 1.001 * largest_step_ + rounding;
-    folded_ = !round_ && std::abs(nodes_.front()) < 1e-6 && std::abs(nodes_.back() - pi) < 1e-6;
+    half_circle_ =
+        !round_ && std::abs(nodes_.front()) < 1e-6 && std::abs(nodes_.back() - pi) < 1e-6;
 }
 
 int AngleAxis::find(double value) const {
@@ -28,8 +29,7 @@ int AngleAxis::find(double value) const {
 }
 
 bool AngleAxis::fine_enough() const {
-    if (azimuth_) return size() == 1 || largest_step_ <= pi / 3. + 1e-6;
-    return size() > 1 && largest_step_ <= pi / 9. + 1e-6;
+    return size() > 1 && largest_step_ <= (azimuth_ ? pi / 3. : pi / 9.) + 1e-6;
 }
 
 std::optional<AngleAxis::Place> AngleAxis::place(double x) const {
@@ -71,9 +71,14 @@ std::unique_ptr<Measured> GridMeasured::make(const std::vector<AngleRow>& rows,
     double cells = 1.;
     for (int k = 0; k < 4; ++k) {
         grid->axis_[k] = AngleAxis(std::move(angles[k]), k % 2 == 1);
+        // One azimuth of light is all that an isotropic surface needs; one of exits is a section, of
+        // which nothing follows for others.
+        if (k == 1 && info.isotropic) continue;
         if (!grid->axis_[k].fine_enough()) return nullptr;
         cells *= grid->axis_[k].size();
     }
+    // Mirrored at the plane of incidence an isotropic surface is the same; others need not be.
+    if (info.isotropic) grid->axis_[3].fold();
     if (cells != double(rows.size())) return nullptr;
     const std::size_t n = std::size_t(info.channels);
     std::vector<bool> taken(rows.size());

@@ -29,16 +29,18 @@ class AngleAxis {
     int size() const { return int(nodes_.size()); }
     /// The position of a value that occurs.
     int find(double value) const;
-    /// Whether the steps are short enough to be linear between: 60 degrees of azimuth, 20 of theta.
+    /// Whether there are several nodes, in steps short enough to be linear between: 60 degrees of
+    /// azimuth, 20 of theta.
     bool fine_enough() const;
+    /// One half of the circle stands for the other, too.
+    void fold() { folded_ = half_circle_; }
 
   private:
     std::vector<double> nodes_;
     bool azimuth_ = false;
-    bool round_ = false;   ///< from the last node on to the first
-    bool folded_ = false;  ///< half a circle that stands for both halves (isotropic surfaces)
+    bool round_ = false;  ///< from the last node on to the first
+    bool half_circle_ = false, folded_ = false;
     double largest_step_ = 0.;
-    friend class GridMeasured;
 };
 
 class GridMeasured final : public Measured {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "nacre/math/warp.h"
+#include "nacre/measured/half_vector_square.h"
 
 namespace nacre {
 namespace {
@@ -21,13 +22,6 @@ std::vector<float> evenly(float first, float last, int count) {
     for (int i = 0; i < count; ++i)
         values[i] = first + (last - first) * float(i) / float(count - 1);
     return values;
-}
-
-float sin_theta_of(const Vec3f& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
-
-/// Solid angle of wi for a piece of the square at half vector (x, theta_h): 4 (wo h) dh.
-float area(float x, float sin_theta_h, float wo_h) {
-    return std::max(2.f * pi * pi * x * sin_theta_h, 1e-9f) * 4.f * wo_h;
 }
 
 Vec3f half_vector(float x, float y, float phi) {
@@ -60,7 +54,7 @@ HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3f&, co
                 const float wo_h = dot(wo, h);
                 if (!(wi.z > 0.f && wo_h > 0.f)) continue;
                 const double v = std::max(value(wi, wo), 0.);
-                const double w = v * area(u, sin_theta_of(h), wo_h);
+                const double w = v * reflected_solid_angle(u, sin_theta_of(h), wo_h);
                 table[k * slice + std::size_t(y) * nodes + x] = float(w);
                 sums[k] += w;
             }
@@ -95,11 +89,10 @@ float HalfVectorSampler::pdf(const Vec3f& wi, const Vec3f& wo) const {
     const SliceMix mix = slices(wo, phi);
     const Vec3f h = normalize(wi + wo);
     const float s = sin_theta_of(h);
-    const float x = std::sqrt(std::atan2(s, h.z) * (2.f / pi));
-    float y = ((s > 0.f ? std::atan2(h.y, h.x) : 0.f) - phi + pi) / (2.f * pi);
-    y -= std::floor(y);
+    const float x = square_x(std::atan2(s, h.z));
+    const float y = square_y((s > 0.f ? std::atan2(h.y, h.x) : 0.f) - phi);
     return by_cosine * wi.z / pi +
-           (1.f - by_cosine) * warp_.density(x, y, mix) / area(x, s, dot(wo, h));
+           (1.f - by_cosine) * warp_.density(x, y, mix) / reflected_solid_angle(x, s, dot(wo, h));
 }
 
 }  // namespace nacre

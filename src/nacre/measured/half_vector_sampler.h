@@ -2,9 +2,8 @@
 // Importance sampling of any BRDF that can be evaluated: a table of f cos(theta_i) over half vectors
 // for a grid of viewers, of which it draws, mixed with directions by the cosine.
 //
-// Half vectors lie on the unit square as in RGL's files (rgl_brdf.h): x = sqrt(2 theta_h / pi),
-// y = phi_h / 2 pi + 1/2, of isotropic surfaces relative to the viewer's azimuth. Highlights so are
-// finely resolved wherever the viewer stands. Tables for viewers between those of the grid are
+// Half vectors lie on the unit square of half_vector_square.h, of isotropic surfaces relative to the
+// viewer's azimuth: highlights are finely resolved wherever the viewer stands. Tables for viewers between those of the grid are
 // mixed, and the density is that of the mixture exactly (marginal_warp.h).
 #include <functional>
 

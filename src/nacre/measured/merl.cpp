@@ -8,7 +8,6 @@
 
 #include "nacre/math/error.h"
 #include "nacre/math/fast_atan2.h"
-#include "nacre/measured/half_angle.h"
 
 namespace nacre {
 namespace {
@@ -110,105 +109,84 @@ namespace {
 
 constexpr int node_counts[3] = {nh, nd, np};
 
-/// Half-angle coordinates in units of nodes: the nodes below, and how far beyond them.
+double angle_of(double y, double x) { return std::atan2(y, x); }
+float angle_of(float y, float x) { return fast_atan2(y, x); }
+
+/// Half-angle coordinates in units of nodes: the nodes below, and how far beyond them. Of h = (wi +
+/// wo)/2 and d = (wi - wo)/2, the half and the difference vector, lengths and angles follow without
+/// turning anything: phi_d is the azimuth of d about h, from h's plane of incidence on, written so that
+/// it keeps its digits near the normal.
+template <class T>
 struct MerlPlace {
     int below[3];
-    double part[3];
+    T part[3];
 
-    MerlPlace(const Vec3d& wi, const Vec3d& wo) {
-        const HalfAngle a = to_half_angle(wi, wo);
-        const double pi = std::numbers::pi;
-        double phi = a.phi_d < 0. ? a.phi_d + pi : a.phi_d;
-        if (phi >= pi) phi -= pi;
-        const double at[3] = {std::sqrt(a.theta_h / (0.5 * pi)) * nh, a.theta_d / (0.5 * pi) * nd,
-                              phi / pi * np};
+    MerlPlace(const Vec3<T>& wi, const Vec3<T>& wo) {
+        const Vec3<T> h = T(0.5) * (wi + wo), d = T(0.5) * (wi - wo);
+        const T cos_d = length(h), across = std::sqrt(h.x * h.x + h.y * h.y);
+        T y = d.y * h.x - d.x * h.y;
+        T x = (h.z * (h.x * d.x + h.y * d.y) - across * across * d.z) / cos_d;
+        if (across == T(0)) {
+            x = d.x;  // theta_h = 0: phi_h is 0 there
+            y = d.y;
+        }
+        if (y < T(0)) {  // the period is pi
+            x = -x;
+            y = -y;
+        }
+        constexpr T pi = std::numbers::pi_v<T>;
+        const T at[3] = {std::sqrt(angle_of(across, h.z) * (T(2) / pi)) * nh,
+                         angle_of(length(d), cos_d) * (T(2) / pi) * nd,
+                         angle_of(y, x) * (T(1) / pi) * np};
         for (int k = 0; k < 3; ++k) {
-            below[k] = std::clamp(int(at[k]), 0, node_counts[k] - 1);
-            part[k] = std::clamp(at[k] - below[k], 0., 1.);
+            // What is no number stays within the table.
+            const T place = at[k] > T(0) ? std::min(at[k], T(node_counts[k])) : T(0);
+            below[k] = std::min(int(place), node_counts[k] - 1);
+            part[k] = std::min(place - T(below[k]), T(1));
         }
     }
 };
 
+/// Linear between the nodes around that are measured; nothing where they hold less than half.
+template <class T>
+std::optional<Vec3<T>> interpolate(const std::vector<Vec3f>& values, const MerlPlace<T>& at) {
+    const auto& [below, part] = at;
+    const std::size_t h_step = below[0] < nh - 1 ? std::size_t(nd) * np : 0,
+                      d_step = below[1] < nd - 1 ? np : 0;
+    const Vec3f* first = &values[position(below[0], below[1], below[2])];
+    const std::ptrdiff_t next = below[2] < np - 1 ? 1 : 1 - np;
+    Vec3<T> sum;
+    T found(0);
+    for (int k = 0; k < 4; ++k) {
+        const Vec3f* v = first + (k & 1 ? h_step : 0) + (k & 2 ? d_step : 0);
+        const T w = (k & 1 ? part[0] : T(1) - part[0]) * (k & 2 ? part[1] : T(1) - part[1]);
+        const T low = v[0].x < 0.f ? T(0) : w * (T(1) - part[2]),
+                high = v[next].x < 0.f ? T(0) : w * part[2];
+        sum += low * Vec3<T>(v[0]) + high * Vec3<T>(v[next]);
+        found += low + high;
+    }
+    if (found < T(0.5)) return std::nullopt;
+    return sum / found;
+}
+
 }  // namespace
 
 MerlNode MerlBrdf::node_below(const Vec3d& wi, const Vec3d& wo) {
-    const MerlPlace at(wi, wo);
+    const MerlPlace<double> at(wi, wo);
     const auto [h, d, p] = at.below;
     return {h, d, p, position(h, d, p)};
 }
 
 std::optional<Vec3d> MerlBrdf::eval(const Vec3d& wi, const Vec3d& wo, MerlLookup lookup) const {
     if (!(wi.z > 0. && wo.z > 0.)) return std::nullopt;
-    const MerlPlace at(wi, wo);
-    const auto& below = at.below;
-    const auto& part = at.part;
-    if (lookup == MerlLookup::nearest) return node(below[0], below[1], below[2]);
-    Vec3d sum;
-    double found = 0.;
-    for (int corner = 0; corner < 8; ++corner) {
-        int n[3];
-        double weight = 1.;
-        for (int k = 0; k < 3; ++k) {
-            const bool up = corner >> k & 1;
-            weight *= up ? part[k] : 1. - part[k];
-            n[k] = below[k] + up;
-        }
-        if (weight == 0.) continue;
-        const auto v = node(std::min(n[0], nh - 1), std::min(n[1], nd - 1), n[2] % np);
-        if (!v) continue;
-        sum += weight * *v;
-        found += weight;
-    }
-    if (found < 0.5) return std::nullopt;
-    return sum / found;
+    const MerlPlace<double> at(wi, wo);
+    if (lookup == MerlLookup::nearest) return node(at.below[0], at.below[1], at.below[2]);
+    return interpolate(values_, at);
 }
 
-bool MerlBrdf::eval(const Vec3f& wi, const Vec3f& wo, float* out) const {
-    if (!(wi.z > 0.f && wo.z > 0.f)) return false;
-    // Of half and difference vector, h = (wi + wo)/2 and d = (wi - wo)/2, lengths and angles follow
-    // without turning anything: d is at right angles to h, so about h it lies at
-    // phi_d = atan2(d_y h_x - d_x h_y, -d_z |h|) but for a factor.
-    const Vec3f h = 0.5f * (wi + wo), d = 0.5f * (wi - wo);
-    const float cos_d = length(h), sin_d = length(d), across = std::sqrt(h.x * h.x + h.y * h.y);
-    float y = d.y * h.x - d.x * h.y, x = -d.z * cos_d;
-    if (across < 1e-6f * cos_d) {  // theta_h = 0: phi_h is 0 there
-        x = d.x;
-        y = d.y;
-    }
-    if (y < 0.f) {  // the period is pi
-        x = -x;
-        y = -y;
-    }
-    constexpr float pi = std::numbers::pi_v<float>;
-    const float at[3] = {std::sqrt(fast_atan2(across, h.z) * (2.f / pi)) * nh,
-                         fast_atan2(sin_d, cos_d) * (2.f / pi) * nd,
-                         fast_atan2(y, x) * (1.f / pi) * np};
-    int below[3];
-    float part[3];
-    for (int k = 0; k < 3; ++k) {
-        below[k] = std::min(int(at[k]), node_counts[k] - 1);
-        part[k] = std::min(at[k] - float(below[k]), 1.f);
-    }
-    const std::size_t h_step = below[0] < nh - 1 ? std::size_t(nd) * np : 0,
-                      d_step = below[1] < nd - 1 ? np : 0;
-    const Vec3f* first = &values_[position(below[0], below[1], below[2])];
-    const std::ptrdiff_t next = below[2] < np - 1 ? 1 : 1 - np;
-    Vec3f sum;
-    float found = 0.f;
-    for (int k = 0; k < 4; ++k) {
-        const Vec3f* v = first + (k & 1 ? h_step : 0) + (k & 2 ? d_step : 0);
-        const float w = (k & 1 ? part[0] : 1.f - part[0]) * (k & 2 ? part[1] : 1.f - part[1]);
-        const float low = v[0].x < 0.f ? 0.f : w * (1.f - part[2]),
-                    high = v[next].x < 0.f ? 0.f : w * part[2];
-        sum += low * v[0] + high * v[next];
-        found += low + high;
-    }
-    if (found < 0.5f) return false;
-    const float scale_up = 1.f / found;
-    out[0] = sum.x * scale_up;
-    out[1] = sum.y * scale_up;
-    out[2] = sum.z * scale_up;
-    return true;
+std::optional<Vec3f> MerlBrdf::eval_float(const Vec3f& wi, const Vec3f& wo) const {
+    if (!(wi.z > 0.f && wo.z > 0.f)) return std::nullopt;
+    return interpolate(values_, MerlPlace<float>(wi, wo));
 }
 
 }  // namespace nacre

@@ -41,9 +41,8 @@ class MerlBrdf {
     /// theta_d their values hold.
     std::optional<Vec3d> eval(const Vec3d& wi, const Vec3d& wo,
                               MerlLookup lookup = MerlLookup::linear) const;
-    /// The same in single precision, linear, red, green and blue to `out`; false where the other has
-    /// nothing.
-    bool eval(const Vec3f& wi, const Vec3f& wo, float* out) const;
+    /// The same in single precision, linear.
+    std::optional<Vec3f> eval_float(const Vec3f& wi, const Vec3f& wo) const;
     /// The node below the half-angle coordinates of two unit vectors that are not opposite.
     static MerlNode node_below(const Vec3d& wi, const Vec3d& wo);
     /// A node's value; nothing if not measured.

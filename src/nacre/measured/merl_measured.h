@@ -10,7 +10,9 @@ class MerlMeasured final : public Measured {
     explicit MerlMeasured(MerlBrdf brdf);
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override;
     bool eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const override {
-        return brdf_.eval(wi, wo, out.data());
+        const auto value = brdf_.eval_float(wi, wo);
+        for (int c = 0; c < 3 && value; ++c) out[c] = (*value)[c];
+        return value.has_value();
     }
     void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const override;
     const MerlBrdf& brdf() const { return brdf_; }

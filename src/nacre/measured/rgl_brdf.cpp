@@ -6,35 +6,23 @@
 
 #include "nacre/math/fast.h"
 #include "nacre/math/fast_atan2.h"
+#include "nacre/measured/half_vector_square.h"
 
 namespace nacre {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-float sin_theta_of(const Vec3f& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
-
 struct Polar {
     float theta, phi;
 };
-/// Of two unit vectors at once; right near the normal as well, where z has no digits left.
+/// Of two unit vectors at once.
 std::array<Polar, 2> polar_of(const Vec3f& a, const Vec3f& b) {
     const Lanes<float, 4> angles =
         fast_atan2(Lanes<float, 4>(sin_theta_of(a), a.y, sin_theta_of(b), b.y),
                    Lanes<float, 4>(a.z, a.x, b.z, b.x));
     return {Polar{angles[0], angles[1]}, Polar{angles[2], angles[3]}};
 }
-float to_unit_theta(float theta) { return std::sqrt(theta * (2.f / pi)); }
-float to_unit_phi(float phi) {
-    const float u = (phi + pi) / (2.f * pi);
-    return u - std::floor(u);
-}
-
-/// Densities by the unit square times this are densities by solid angle of the other direction.
-float to_solid_angle(float x, float sin_theta_h, float given_h) {
-    return 1.f / (std::max(2.f * pi * pi * x * sin_theta_h, 1e-6f) * 4.f * given_h);
-}
-
 }  // namespace
 
 /// A given direction, turned into the measured range, and where its slices are.
@@ -89,16 +77,14 @@ RglBrdf::Half RglBrdf::place(const Vec3f& given, const Vec3f& other, Given& g) c
     g.theta = at_given.theta;
     g.phi = at_given.phi;
     g.mix = t_.incidence.at(g.phi, g.theta);
-    return {to_unit_theta(at_half.theta),
-            to_unit_phi(isotropic_ ? at_half.phi - g.phi : at_half.phi), sin_theta_of(h),
-            dot(g.w, h)};
+    return {square_x(at_half.theta), square_y(isotropic_ ? at_half.phi - g.phi : at_half.phi),
+            sin_theta_of(h), dot(g.w, h)};
 }
 
 float RglBrdf::factor(const Given& g, float x, float y) const {
     if (!t_.jacobian) return 1.f;
     const SliceMix one;
-    return t_.ndf.eval(x, y, one) /
-           (4.f * t_.sigma.eval(to_unit_theta(g.theta), to_unit_phi(g.phi), one));
+    return t_.ndf.eval(x, y, one) / (4.f * t_.sigma.eval(square_x(g.theta), square_y(g.phi), one));
 }
 
 bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out) const {
@@ -145,8 +131,8 @@ std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, floa
     const Vec3f w = direction_of(g, at.x, at.y, half);
     const float given_h = dot(g.w, half);
     if (!(w.z > 0.f && given_h > 0.f)) return std::nullopt;
-    return Sample{w,
-                  bright.density * at.density * to_solid_angle(at.x, sin_theta_of(half), given_h)};
+    return Sample{
+        w, bright.density * at.density / reflected_solid_angle(at.x, sin_theta_of(half), given_h)};
 }
 
 float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
@@ -154,8 +140,8 @@ float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
     Given g;
     const Half h = place(given, other, g);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
-    return at.density * t_.luminance.density(at.x, at.y, g.mix) *
-           to_solid_angle(h.x, h.sin_theta, h.given_h);
+    return at.density * t_.luminance.density(at.x, at.y, g.mix) /
+           reflected_solid_angle(h.x, h.sin_theta, h.given_h);
 }
 
 RglBrdf::Node RglBrdf::node(const Vec3f& given, std::size_t slice, int x, int y) const {

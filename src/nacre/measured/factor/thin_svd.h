@@ -1,5 +1,5 @@
 #pragma once
-// Eigen's decompositions of dense matrices, compiled once: its templates take a minute.
+// Eigen's decompositions of dense matrices, in a file of their own, because its templates take long to compile.
 #include <Eigen/Core>
 
 namespace nacre {
