@@ -21,8 +21,12 @@ void ask(const nacre::Measured& data) {
         std::abort();
     if (info.samples == 0 || info.missing + info.negative > info.samples) std::abort();
     std::vector<double> value(std::size_t(info.channels));
+    std::vector<float> quick(value.size());
     for (const nacre::Vec3d& wi : directions)
-        for (const nacre::Vec3d& wo : directions) data.eval(wi, wo, value);
+        for (const nacre::Vec3d& wo : directions) {
+            data.eval(wi, wo, value);
+            data.eval_float(nacre::Vec3f(wi), nacre::Vec3f(wo), quick);
+        }
     std::size_t seen = 0;
     data.for_each_sample([&](const nacre::MeasuredSample& s) {
         if (s.value.size() != value.size()) std::abort();

@@ -7,8 +7,8 @@
 #include "apps/cli/output_file.h"
 #include "apps/cli/streams.h"
 #include "nacre/math/error.h"
-#include "nacre/measured/formats.h"
 #include "nacre/measured/number_text.h"
+#include "nacre/measured/open_measured.h"
 #include "nacre/measured/surface.h"
 #include "nacre/text/lines.h"
 #include "nacre/text/whole_file.h"
@@ -72,7 +72,7 @@ int run_data_eval(const DataEvalArguments& o) {
         o.pairs.empty() ? std::vector<DirectionsAsked>{{parse_direction(o.wi, "--wi"),
                                                         parse_direction(o.wo, "--wo")}}
                         : read_pairs(o.pairs);
-    std::unique_ptr<Measured> data = read_measured(o.file);
+    std::unique_ptr<Measured> data = open_measured(o.file);
     std::string text = header(data->info(), o.rendered);
     const std::size_t n = std::size_t(data->info().channels);
     const auto add = [&](auto value) {

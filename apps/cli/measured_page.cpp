@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "nacre/measured/formats.h"
+#include "nacre/measured/open_measured.h"
 
 namespace nacre::cli {
 namespace {
@@ -37,9 +37,10 @@ bool has_measured_extension(const std::filesystem::path& file) {
 
 ordered_json describe_measured(const std::filesystem::path& file, const Measured& data) {
     const MeasuredInfo& i = data.info();
+    const MeasuredFormat* format = measured_formats().look(i.format);  // none of folders
     ordered_json json{{"file", file.string()},
                       {"kind", "measured reflectance"},
-                      {"format", measured_formats().find(i.format).title}};
+                      {"format", format ? std::string(format->title) : i.format}};
     if (!i.description.empty()) json["description"] = i.description;
     json["channels"] = channels_in_words(i);
     if (!i.wavelengths.empty()) json["wavelengths"] = i.wavelengths;
@@ -58,7 +59,7 @@ ordered_json describe_measured(const std::filesystem::path& file, const Measured
 }
 
 ordered_json describe_measured(const std::filesystem::path& file) {
-    return describe_measured(file, *read_measured(file));
+    return describe_measured(file, *open_measured(file));
 }
 
 }  // namespace nacre::cli

@@ -6,10 +6,14 @@
 #include <fstream>
 
 #include "nacre/image/image.h"
+#include "nacre/math/warp.h"
 #include "nacre/measured/factor/factorise.h"
 #include "nacre/measured/factor/spheres.h"
 #include "nacre/measured/factor/textures.h"
+#include "nacre/measured/open_measured.h"
+#include "nacre/measured/surface.h"
 #include "tests/measured/factor_targets.h"
+#include "tests/reflectance/chi_square.h"
 #include "tests/support/error_of.h"
 
 namespace nacre {
@@ -64,6 +68,45 @@ TEST_F(FactorFiles, AreReadAsTheyWereWritten) {
             // The folder is a target as a file or a model is.
             EXPECT_EQ(make_target(folder_.string())->value(wi, wo)->y, brdf.value(wi, wo)->y);
         }
+}
+
+/// A folder is what files of measured reflectance are: whatever takes those takes it.
+TEST_F(FactorFiles, AreMeasuredReflectance) {
+    for (const FactorParameters parameters :
+         {FactorParameters::in_out, FactorParameters::half_difference}) {
+        const FactoredBrdf brdf = made(2, false, parameters);
+        write_factors(brdf, folder_);
+        const auto data = open_measured(folder_);
+        EXPECT_EQ(data->info().format, "factors");
+        EXPECT_EQ(data->info().channels, 3);
+        EXPECT_FALSE(data->info().isotropic);
+        EXPECT_EQ(data->info().samples, 36u * 36u);
+        // Of half and difference vectors some pairs lead below the horizon.
+        EXPECT_EQ(data->info().missing > 0, parameters == FactorParameters::half_difference);
+        Random random(stream_key(3, 1));
+        for (int i = 0; i < 200; ++i) {
+            const Vec3d wi(square_to_cosine_hemisphere(random.next2()));
+            const Vec3d wo(square_to_cosine_hemisphere(random.next2()));
+            double f[3];
+            float quick[3];
+            ASSERT_TRUE(data->eval(wi, wo, f));
+            ASSERT_TRUE(data->eval_float(Vec3f(wi), Vec3f(wo), quick));
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_EQ(f[c], (*brdf.value(wi, wo))[c]);
+                EXPECT_NEAR(quick[c], f[c], 1e-3 * f[c] + 1e-4);
+            }
+            EXPECT_FALSE(data->eval(wi, -wo, f));
+        }
+        float quick[3];
+        data->eval_float({NAN, 0.f, 1.f}, {0.f, NAN, 1.f}, quick);  // stays within the textures
+    }
+    const MeasuredSurface surface(open_measured(folder_));
+    for (const Vec3f& wo : {Vec3f{0.f, 0.f, 1.f}, normalize(Vec3f{0.6f, 0.5f, 0.5f})}) {
+        const auto result =
+            test::chi_square([&](Random& r) { return surface.sample(wo, r.next(), r.next2()); },
+                             [&](const Vec3f& wi) { return surface.pdf(wi, wo); }, 71);
+        EXPECT_GT(result.p, 0.01 / 2.) << result.drawn << " " << result.integral;
+    }
 }
 
 // phi goes to the right, theta downwards.

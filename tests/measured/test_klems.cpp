@@ -3,7 +3,9 @@
 #include <numbers>
 
 #include "nacre/math/random.h"
+#include "nacre/measured/surface.h"
 #include "tests/measured/made_files.h"
+#include "tests/reflectance/chi_square.h"
 
 namespace nacre {
 namespace {
@@ -73,6 +75,52 @@ TEST(Klems, WhatIsNotInTheFileIsNotKnown) {
     solar.part = "Solar";
     EXPECT_EQ(test::parsed(solar.text())->info().notes,
               (std::vector<std::string>{"of the part 'Solar' of the spectrum"}));
+}
+
+/// What is drawn for a viewer is all of its light: f cos over the density is the same everywhere, and
+/// the sum over the viewer's row of patches.
+TEST(Klems, PatchesAreDrawnByTheirLight) {
+    MadeKlems file;
+    file.blocks = {{"Reflection Front", five_by_five(-3)},
+                   {"Transmission Front", five_by_five(7)},
+                   {"Transmission Back", five_by_five(1)}};
+    const auto data = test::parsed(file.text());
+    const auto& klems = dynamic_cast<const KlemsMeasured&>(*data);
+    const MeasuredSurface surface(test::parsed(file.text()));
+    std::uint64_t seed = 40;
+    for (const Vec3d& wo : {test::towards(12., 30.), test::towards(70., 100.),
+                            test::towards(50., -170.), -test::towards(60., 10.)}) {
+        // Columns are incidences, rows exits.
+        double light = 0.;
+        for (const auto& [side, first] : {std::pair{KlemsMeasured::reflection_front, -3},
+                                          {KlemsMeasured::transmission_back, 1},
+                                          {KlemsMeasured::transmission_front, 7}}) {
+            if ((side == KlemsMeasured::transmission_front) != (wo.z < 0.)) continue;
+            const KlemsBasis& basis = klems.matrix(side).in;
+            const int row = basis.patch_of(wo, false);
+            for (int i = 0; i < 5; ++i)
+                light += std::max(first + 5 * row + i, 0) * basis.projected_solid_angle(i);
+        }
+        Random random(stream_key(27, ++seed));
+        for (int i = 0; i < 200; ++i) {
+            const auto wi = surface.sample(Vec3f(wo), random.next(), random.next2());
+            ASSERT_TRUE(wi);
+            float f_cos;
+            surface.eval(*wi, Vec3f(wo), std::span<float>(&f_cos, 1));
+            EXPECT_NEAR(f_cos / surface.pdf(*wi, Vec3f(wo)), light, 1e-5 * light);
+        }
+        const auto result = test::chi_square(
+            [&](Random& r) { return surface.sample(Vec3f(wo), r.next(), r.next2()); },
+            [&](const Vec3f& wi) { return surface.pdf(wi, Vec3f(wo)); }, seed);
+        EXPECT_GT(result.p, 0.01 / 4.) << result.drawn << " " << result.integral;
+        EXPECT_NEAR(result.integral, 1., 1e-2);
+    }
+    // Nothing is known of light that is reflected at the back: none comes, and none is drawn.
+    EXPECT_EQ(surface.pdf(Vec3f{0.f, 0.6f, -0.8f}, Vec3f{0.f, 0.f, -1.f}), 0.f);
+    file.blocks = {{"Reflection Front", five_by_five(-30)}};
+    const MeasuredSurface dark(test::parsed(file.text()));
+    EXPECT_FALSE(dark.sample(Vec3f{0.f, 0.f, 1.f}, 0.5f, {0.5f, 0.5f}));
+    EXPECT_EQ(dark.pdf(Vec3f{0.f, 0.6f, 0.8f}, Vec3f{0.f, 0.f, 1.f}), 0.f);
 }
 
 /// The three standard bases, named without being defined: 145, 73 and 41 patches that share the

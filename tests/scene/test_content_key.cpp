@@ -1,6 +1,7 @@
 #include "nacre/scene/content_key.h"
 
 #include "nacre/geometry/mesh_build.h"
+#include "nacre/measured/factor/textures.h"
 #include "nacre/scene/demo_scene.h"
 #include "tests/scene/scene_files.h"
 
@@ -45,6 +46,27 @@ TEST_F(ContentKey, IsThatOfWhatIsSeen) {
     EXPECT_NE(key("0.5", "independent", spectral), plain);
     write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n");
     EXPECT_NE(key("0.5"), plain) << "the mesh is part of the scene";
+}
+
+/// A material may be a folder of files: each is part of the scene.
+TEST_F(ContentKey, FoldersAreTheirFiles) {
+    const auto factors = [&](float h) {
+        std::filesystem::create_directory(folder_ / "factors");
+        write_factors(
+            FactoredBrdf({FactorParameters::in_out, 2},
+                         {{FactorTexture(4, {0.5f, 0.5f, 0.5f}), FactorTexture(4, {h, h, h})}},
+                         false, "made", true),
+            folder_ / "factors");
+        return content_key(load_scene(write(
+            "f.xml",
+            "<scene version=\"3.0.0\"><integrator type=\"path\"/><sensor type=\"perspective\"/>"
+            "<emitter type=\"constant\"/><shape type=\"obj\"><string name=\"filename\" "
+            "value=\"m.obj\"/><bsdf type=\"measured\"><string name=\"filename\" "
+            "value=\"factors\"/></bsdf></shape></scene>")));
+    };
+    const std::string plain = factors(0.4f);
+    EXPECT_EQ(factors(0.4f), plain);
+    EXPECT_NE(factors(0.3f), plain);
 }
 
 /// What differs is named, and only that.

@@ -1,4 +1,5 @@
 // <bsdf type="measured">: a file's numbers on a surface, in bands and at wavelengths.
+#include "nacre/measured/factor/textures.h"
 #include "nacre/measured/formats.h"
 #include "nacre/spectrum/rgb_basis.h"
 #include "tests/scene/bands.h"
@@ -93,6 +94,30 @@ TEST_F(MeasuredMaterial, LightThatPassesAndGaps) {
     EXPECT_NE(context_.warnings[0].find("% of the pairs of directions have no measurement and "
                                         "reflect nothing"),
               std::string::npos);
+}
+
+/// A folder of factors, by its name; what it is read from is all of its files.
+TEST_F(MeasuredMaterial, FactorsOfAFolder) {
+    const std::filesystem::path folder = folder_ / "factors";
+    std::filesystem::create_directory(folder);
+    const FactorGrid grid{FactorParameters::in_out, 2};
+    const FactoredBrdf brdf(
+        grid, {{FactorTexture(4, {0.5f, 0.5f, 0.5f}), FactorTexture(4, {0.4f, 0.2f, 0.1f})}}, false,
+        "made", true);
+    write_factors(brdf, folder);
+    std::vector<std::filesystem::path> read;
+    context_.files = &read;
+    context_.search_path = {folder_};
+    const MaterialPtr m =
+        make_material(*bsdf("measured", {test::text("filename", "factors")}), context_);
+    const Spectral f = facing(*m, bands);
+    EXPECT_FLOAT_EQ(f[0], 0.2f * cosine_);
+    EXPECT_FLOAT_EQ(f[2], 0.05f * cosine_);
+    EXPECT_EQ(read, (std::vector{folder / "g01.exr", folder / "h01.exr"}));
+    std::filesystem::remove(folder / "h01.exr");
+    EXPECT_NE(
+        test::error_of(bsdf("measured", {test::text("filename", folder.string())})).find("h01.exr"),
+        std::string::npos);
 }
 
 TEST_F(MeasuredMaterial, WrongInput) {

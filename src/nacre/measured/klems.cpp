@@ -21,6 +21,16 @@ int KlemsBasis::size() const {
     return n;
 }
 
+int KlemsBasis::patch_of(const Vec3d& w, bool light) const {
+    return patch(std::atan2(std::hypot(w.x, w.y), std::abs(w.z)), azimuth(w, light));
+}
+
+Vec3d KlemsBasis::direction(Angles a, bool light, bool above) {
+    const double s = std::sin(a.theta) * (light ? -1. : 1.);
+    return {s * std::cos(a.phi), s * std::sin(a.phi),
+            above ? std::cos(a.theta) : -std::cos(a.theta)};
+}
+
 int KlemsBasis::patch(double theta, double phi) const {
     int first = 0;
     for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -40,6 +50,18 @@ KlemsBasis::Angles KlemsBasis::centre(int patch) const {
         if (patch < r.patches)
             return {r.lower == 0. && r.patches == 1 ? 0. : 0.5 * (r.lower + r.upper) * degree,
                     2. * pi * patch / r.patches};
+        patch -= r.patches;
+    }
+    return {0., 0.};
+}
+
+KlemsBasis::Angles KlemsBasis::within(int patch, double u, double v) const {
+    for (const Ring& r : rings) {
+        if (patch < r.patches) {
+            const double a = std::sin(r.lower * degree), b = std::sin(r.upper * degree);
+            return {std::asin(std::min(std::sqrt(a * a + (b * b - a * a) * u), 1.)),
+                    2. * pi * (patch + v - 0.5) / r.patches};
+        }
         patch -= r.patches;
     }
     return {0., 0.};
@@ -73,29 +95,20 @@ bool KlemsMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out
     const KlemsMatrix& m = matrices_[through ? (front ? transmission_front : transmission_back)
                                              : (front ? reflection_front : reflection_back)];
     if (m.value.empty()) return false;
-    const auto theta = [](const Vec3d& w) {
-        return std::atan2(std::hypot(w.x, w.y), std::abs(w.z));
-    };
-    const int i = m.in.patch(theta(wi), azimuth(wi, true));
-    const int o = m.out.patch(theta(wo), azimuth(wo, false));
+    const int i = m.in.patch_of(wi, true), o = m.out.patch_of(wo, false);
     out[0] = m.value[std::size_t(o) * m.in.size() + i];
     return true;
 }
 
 void KlemsMeasured::for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const {
-    const auto direction = [](KlemsBasis::Angles a, bool light, bool above) {
-        const double s = std::sin(a.theta) * (light ? -1. : 1.);
-        return Vec3d{s * std::cos(a.phi), s * std::sin(a.phi),
-                     above ? std::cos(a.theta) : -std::cos(a.theta)};
-    };
     for (int d = 0; d < 4; ++d) {
         const KlemsMatrix& m = matrices_[d];
         const bool front = d == transmission_front || d == reflection_front;
         const bool exit_front = d == transmission_back || d == reflection_front;
         const int n = m.in.size();
         for (std::size_t k = 0; k < m.value.size(); ++k) {
-            const Vec3d wi = direction(m.in.centre(int(k) % n), true, front);
-            const Vec3d wo = direction(m.out.centre(int(k) / n), false, exit_front);
+            const Vec3d wi = KlemsBasis::direction(m.in.centre(int(k) % n), true, front);
+            const Vec3d wo = KlemsBasis::direction(m.out.centre(int(k) / n), false, exit_front);
             visit({wi, wo, m.value[k] < 0. ? SampleState::negative : SampleState::good,
                    std::span<const double>(&m.value[k], 1)});
         }

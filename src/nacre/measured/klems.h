@@ -26,11 +26,17 @@ struct KlemsBasis {
     int size() const;
     /// The patch that the direction (theta, phi) lies in; radians.
     int patch(double theta, double phi) const;
+    /// That of a unit vector towards the light, or of an exit.
+    int patch_of(const Vec3d& w, bool light) const;
     /// Its centre: radians.
     struct Angles {
         double theta, phi;
     };
     Angles centre(int patch) const;
+    /// A place in it, evenly by solid angle times cosine for u and v in [0, 1).
+    Angles within(int patch, double u, double v) const;
+    /// The unit vector of it, towards the light or of an exit, on the side of z > 0 or the other.
+    static Vec3d direction(Angles a, bool light, bool above);
     /// The integral of cos(theta) over it, sr.
     double projected_solid_angle(int patch) const;
 };

@@ -11,7 +11,7 @@ namespace nacre {
 
 /// Of one file: what it says of itself, what was found in it.
 struct MeasuredInfo {
-    std::string format;               ///< name in formats.h: "merl"
+    std::string format;               ///< name in formats.h: "merl"; "factors" of a folder of them
     std::string description;          ///< the file's own words; may be empty
     std::string parameterisation;     ///< in which coordinates it is stored
     std::string scale;                ///< how stored numbers become sr^-1, in words

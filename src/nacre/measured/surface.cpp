@@ -26,6 +26,10 @@ MeasuredSurface::MeasuredSurface(std::unique_ptr<Measured> data) : data_(std::mo
         rgl_ = &rgl->brdf();
         return;
     }
+    if (const auto* klems = dynamic_cast<const KlemsMeasured*>(data_.get())) {
+        klems_.emplace(*klems);
+        return;
+    }
     front_ = make_side(true);
     back_ = make_side(false);
     if (!info().reflection_front) return;
@@ -101,6 +105,7 @@ std::optional<Vec3f> MeasuredSurface::sample(const Vec3f& wo, float u1, Vec2f u2
         if (!s) return std::nullopt;
         return s->direction;
     }
+    if (klems_) return klems_->sample(wo, u1, u2);
     const Side& side = side_of(wo);
     const bool reflect = u1 < side.reflect_chance;
     const auto& sampler = reflect ? side.reflected : side.transmitted;
@@ -115,6 +120,7 @@ std::optional<Vec3f> MeasuredSurface::sample(const Vec3f& wo, float u1, Vec2f u2
 
 float MeasuredSurface::pdf(const Vec3f& wi, const Vec3f& wo) const {
     if (rgl_) return rgl_->pdf(wo, wi);
+    if (klems_) return klems_->pdf(wi, wo);
     const Side& side = side_of(wo);
     const bool reflect = (wi.z > 0.f) == (wo.z > 0.f);
     const auto& sampler = reflect ? side.reflected : side.transmitted;

@@ -10,13 +10,15 @@
 //                            incident, as in Mitsuba 3, because the tables are drawn from for it.
 //                            All others: as measured.
 //
-// RGL's files are drawn from by their own warps, the others by a table made here
-// (half_vector_sampler.h; for light that passes through, of wi mirrored at the surface).
+// RGL's files are drawn from by their own warps, those of patches by their patches
+// (klems_sampler.h), the others by a table made here (half_vector_sampler.h; for light that passes
+// through, of wi mirrored at the surface).
 #include <memory>
 #include <optional>
 #include <span>
 
 #include "nacre/measured/half_vector_sampler.h"
+#include "nacre/measured/klems_sampler.h"
 #include "nacre/measured/measured.h"
 #include "nacre/measured/rgl_brdf.h"
 
@@ -54,6 +56,7 @@ class MeasuredSurface {
 
     std::unique_ptr<Measured> data_;
     const RglBrdf* rgl_ = nullptr;
+    std::optional<KlemsSampler> klems_;
     Side front_, back_;
     double black_ = 0.;
 };

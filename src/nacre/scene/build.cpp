@@ -36,15 +36,27 @@ SpectrumPtr from_rgb(const Vec3f& rgb, ColorRole role) {
     return make_rgb_illuminant(rgb);
 }
 
-}  // namespace
-
-std::filesystem::path BuildContext::file(const SceneNode& node, std::string_view name) const {
+std::filesystem::path find_named(const BuildContext& context, const SceneNode& node,
+                                 std::string_view name, FindWhat what) {
     const std::string wanted = node.get_string(name);
     std::string where = node.location.str();
     for (const SceneValue& v : node.values)
         if (v.name == name) where = v.location.str();
-    std::filesystem::path found = find_file(wanted, search_path, where);
+    return find_file(wanted, context.search_path, where, what);
+}
+
+}  // namespace
+
+std::filesystem::path BuildContext::file(const SceneNode& node, std::string_view name) const {
+    const std::filesystem::path found = find_named(*this, node, name, FindWhat::file);
     if (files) files->push_back(found);
+    return found;
+}
+
+std::filesystem::path BuildContext::file_or_folder(const SceneNode& node,
+                                                   std::string_view name) const {
+    const std::filesystem::path found = find_named(*this, node, name, FindWhat::file_or_folder);
+    if (files) std::ranges::copy(files_in(found), std::back_inserter(*files));
     return found;
 }
 

@@ -48,6 +48,8 @@ struct BuildContext {
     /// The file named by the string parameter `name` of `node`; throws with the folders searched if
     /// it is not there.
     std::filesystem::path file(const SceneNode& node, std::string_view name) const;
+    /// The same, or a folder.
+    std::filesystem::path file_or_folder(const SceneNode& node, std::string_view name) const;
 };
 
 /// Throws InputError for negative values, and for a reflectance by a black body. Light given as one

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "nacre/math/random.h"
+#include "nacre/scene/xml/find_file.h"
 #include "nacre/scene/xml/scene_node.h"
 #include "nacre/text/whole_file.h"
 
@@ -45,12 +46,15 @@ void add_file(Hash& hash, const std::string& name,
     hash.add(name);
     for (const std::filesystem::path& folder : search_path) {
         std::error_code error;
-        const std::filesystem::path file = folder / name;
-        if (!std::filesystem::is_regular_file(file, error)) continue;
-        const auto bytes = read_whole_file(file);
-        if (!bytes)
-            throw RunError(fmt::format("{}: cannot be read; check its permissions", file.string()));
-        return hash.add(*bytes);
+        if (!std::filesystem::exists(folder / name, error)) continue;
+        for (const std::filesystem::path& file : files_in(folder / name)) {
+            const auto bytes = read_whole_file(file);
+            if (!bytes)
+                throw RunError(
+                    fmt::format("{}: cannot be read; check its permissions", file.string()));
+            hash.add(*bytes);
+        }
+        return;
     }
 }
 

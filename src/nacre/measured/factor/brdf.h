@@ -25,6 +25,8 @@ class FactoredBrdf final : public Target {
 
     std::string name() const override { return name_; }
     std::optional<Vec3d> value(const Vec3d& wi, const Vec3d& wo) const override;
+    /// The same in single precision, for renderers.
+    std::optional<Vec3f> value_float(const Vec3f& wi, const Vec3f& wo) const;
     /// What was said of the BRDF that was factored; lookups differ a little from one azimuth to
     /// another.
     bool isotropic() const override { return isotropic_; }
@@ -34,6 +36,9 @@ class FactoredBrdf final : public Target {
     bool logarithmic() const { return logarithmic_; }
 
   private:
+    template <class T>
+    std::optional<Vec3<T>> sum(const Vec3<T>& wi, const Vec3<T>& wo) const;
+
     FactorGrid grid_;
     std::vector<FactorTerm> terms_;
     bool logarithmic_;

@@ -22,21 +22,23 @@ double solid_angle(int k, int side, bool squared) {
             std::cos(theta_of(double(r2 + 1) / side, squared)));
 }
 
+template <class T>
 struct Frame {
-    Vec3d x, y;
-    explicit Frame(const Vec3d& h) {
-        const Vec3d t = Vec3d{1., 0., 0.} - h * h.x;
-        const double size = length(t);
+    Vec3<T> x, y;
+    explicit Frame(const Vec3<T>& h) {
+        const Vec3<T> t = Vec3<T>{T(1), T(0), T(0)} - h * h.x;
+        const T size = length(t);
         // Of the tangent itself nothing is left: any perpendicular will do.
-        x = size > 1e-9 ? t / size : Vec3d{0., 0., -1.};
+        x = size > T(1e-9) ? t / size : Vec3<T>{T(0), T(0), T(-1)};
         y = cross(h, x);
     }
 };
 
-Vec2<double> place(const Vec3d& w, bool squared) {
-    const double phi = std::atan2(w.y, w.x) / (2. * pi);
-    const double theta = std::atan2(std::hypot(w.x, w.y), w.z) / (0.5 * pi);
-    return {phi < 0. ? phi + 1. : phi, squared ? std::sqrt(theta) : theta};
+template <class T>
+Vec2<T> place(const Vec3<T>& w, bool squared) {
+    const T phi = std::atan2(w.y, w.x) / T(2. * pi);
+    const T theta = std::atan2(std::hypot(w.x, w.y), w.z) / T(0.5 * pi);
+    return {phi < T(0) ? phi + T(1) : phi, squared ? std::sqrt(theta) : theta};
 }
 
 bool squares(FactorParameters p) { return p == FactorParameters::half_difference; }
@@ -56,7 +58,7 @@ double FactorGrid::column_weight(int l) const { return solid_angle(l, side, fals
 
 DirectionPair FactorGrid::pair(const Vec3d& row, const Vec3d& column) const {
     if (parameters == FactorParameters::in_out) return {row, column};
-    const Frame frame(row);
+    const Frame<double> frame(row);
     const Vec3d across = frame.x * column.x + frame.y * column.y, along = row * column.z;
     return {along + across, along - across};
 }
@@ -71,11 +73,14 @@ double FactorGrid::measure(int k, int l) const {
     return 4. * weight / x.z * w.wi.z * w.wo.z;
 }
 
-FactorPlaces factor_places(FactorParameters parameters, const Vec3d& wi, const Vec3d& wo) {
+template <class T>
+FactorPlaces<T> factor_places(FactorParameters parameters, const Vec3<T>& wi, const Vec3<T>& wo) {
     if (parameters == FactorParameters::in_out) return {place(wi, false), place(wo, false)};
-    const Vec3d h = normalize(wi + wo);
-    const Frame frame(h);
-    return {place(h, true), place({dot(wi, frame.x), dot(wi, frame.y), dot(wi, h)}, false)};
+    const Vec3<T> h = normalize(wi + wo);
+    const Frame<T> frame(h);
+    return {place(h, true), place<T>({dot(wi, frame.x), dot(wi, frame.y), dot(wi, h)}, false)};
 }
+template FactorPlaces<float> factor_places(FactorParameters, const Vec3f&, const Vec3f&);
+template FactorPlaces<double> factor_places(FactorParameters, const Vec3d&, const Vec3d&);
 
 }  // namespace nacre

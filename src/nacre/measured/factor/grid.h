@@ -45,10 +45,12 @@ struct FactorGrid {
 };
 
 /// A place in a texture: (0, 0) and (1, 1) are its corners, x goes with phi and y with theta.
+template <class T>
 struct FactorPlaces {
-    Vec2<double> row, column;
+    Vec2<T> row, column;
 };
-/// Where two unit vectors above the horizon are looked up.
-FactorPlaces factor_places(FactorParameters parameters, const Vec3d& wi, const Vec3d& wo);
+/// Where two unit vectors above the horizon are looked up; for float and double.
+template <class T>
+FactorPlaces<T> factor_places(FactorParameters parameters, const Vec3<T>& wi, const Vec3<T>& wo);
 
 }  // namespace nacre

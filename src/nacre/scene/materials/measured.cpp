@@ -1,10 +1,10 @@
 // <bsdf type="measured">: reflectance as it was measured, from a file of any format that nacre reads
-// (docs/measured.md).
-//   filename   the file
+// (docs/measured.md), or factored (docs/factoring.md).
+//   filename   the file, or the folder of factors
 //   scale      factor, a number > 0 (1)
 // What the file does not hold (angles beyond the measured ones) is said in measured/surface.h. A
 // file of reflection alone is black from the inside; wrap it in <bsdf type="twosided">.
-#include "nacre/measured/formats.h"
+#include "nacre/measured/open_measured.h"
 #include "nacre/measured/surface.h"
 #include "nacre/scene/materials/types.h"
 #include "nacre/spectrum/rgb_basis.h"
@@ -132,14 +132,14 @@ class MeasuredMaterial final : public Material {
 }  // namespace
 
 MaterialPtr make_measured(const SceneNode& node, BuildContext& context) {
-    const std::filesystem::path file = context.file(node, "filename");
+    const std::filesystem::path file = context.file_or_folder(node, "filename");
     const double scale = node.get_float("scale", 1.);
     if (!(scale > 0. && std::isfinite(scale)))
         node.fail_at("scale",
                      fmt::format("'scale' of {} must be positive; got {}", node.describe(), scale));
     std::shared_ptr<const MeasuredSurface> surface;
     try {
-        surface = std::make_shared<MeasuredSurface>(read_measured(file));
+        surface = std::make_shared<MeasuredSurface>(open_measured(file));
     } catch (const InputError& error) {
         node.fail_at("filename", error.what());
     }
