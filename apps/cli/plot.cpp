@@ -104,9 +104,10 @@ std::string curves(const Table& t, const std::string& using_format) {
             lines.push_back(fmt::format("$band{} using 1:2 with lines ls {} title {}", c, line,
                                         quoted(name_of(t, c) + ", ±2 standard errors")));
         } else {
-            lines.push_back(fmt::format("$data using {} with lines ls {} title {}",
-                                        fmt::format(fmt::runtime(using_format), c + 1), line,
-                                        title));
+            lines.push_back(fmt::format("$data using {} with {} ls {} {}title {}",
+                                        fmt::format(fmt::runtime(using_format), c + 1),
+                                        t.rows.size() > 1 ? "lines" : "points", line,
+                                        t.rows.size() > 1 ? "" : "pt 7 ", title));
         }
     }
     bands.insert(bands.end(), lines.begin(), lines.end());
@@ -198,6 +199,9 @@ std::string gnuplot_script(const Table& t, const fs::path& output, const std::st
             }
             s += fmt::format("set xlabel {} noenhanced\nset ylabel {} noenhanced\n", x_label,
                              y_label);
+            if (t.rows.size() == 1)  // of one point gnuplot takes no range
+                s += fmt::format("set xrange [{:.6g}:{:.6g}]\n", 0.5 * t.rows[0][0],
+                                 1.5 * t.rows[0][0] + (t.rows[0][0] == 0. ? 1. : 0.));
             s += curves(t, "1:{}");
             break;
         case PlotKind::polar: {
