@@ -73,10 +73,9 @@ MerlBrdf parse_merl(std::string_view bytes, const std::filesystem::path& path) {
                                        v[c]));
         }
         if (v[0] < 0. || v[1] < 0. || v[2] < 0.) {
-            brdf.values_[i] = Vec3f(-1.f, -1.f, -1.f);
             ++brdf.missing_;
         } else {
-            brdf.values_[i] = Vec3f(float(v[0]), float(v[1]), float(v[2]));
+            brdf.values_[i] = {float(v[0]), float(v[1]), float(v[2]), 1.f};
         }
     }
     if (brdf.missing_ == node_count)
@@ -100,17 +99,26 @@ MerlBrdf read_merl(const std::filesystem::path& path) {
 }
 
 std::optional<Vec3d> MerlBrdf::node(int theta_h, int theta_d, int phi_d) const {
-    const Vec3f& v = values_[position(theta_h, theta_d, phi_d)];
-    if (v.x < 0.f) return std::nullopt;
-    return Vec3d(v);
+    const Lanes<float, 4> v = values_[position(theta_h, theta_d, phi_d)];
+    if (v[3] == 0.f) return std::nullopt;
+    return Vec3d(v[0], v[1], v[2]);
 }
 
 namespace {
 
 constexpr int node_counts[3] = {nh, nd, np};
 
-double angle_of(double y, double x) { return std::atan2(y, x); }
-float angle_of(float y, float x) { return fast_atan2(y, x); }
+/// Angles of three vectors in the plane.
+std::array<double, 3> angles_of(const std::array<double, 3>& y, const std::array<double, 3>& x) {
+    return {std::atan2(y[0], x[0]), std::atan2(y[1], x[1]), std::atan2(y[2], x[2])};
+}
+Lanes<float, 4> angles_of(const std::array<float, 3>& y, const std::array<float, 3>& x) {
+    return fast_atan2(Lanes<float, 4>(y[0], y[1], y[2], 0.f),
+                      Lanes<float, 4>(x[0], x[1], x[2], 1.f));
+}
+
+Lanes<float, 4> in(float, Lanes<float, 4> v) { return v; }
+Lanes<double, 4> in(double, Lanes<float, 4> v) { return {v[0], v[1], v[2], v[3]}; }
 
 /// Half-angle coordinates in units of nodes: the nodes below, and how far beyond them. Of h = (wi +
 /// wo)/2 and d = (wi - wo)/2, the half and the difference vector, lengths and angles follow without
@@ -135,9 +143,9 @@ struct MerlPlace {
             y = -y;
         }
         constexpr T pi = std::numbers::pi_v<T>;
-        const T at[3] = {std::sqrt(angle_of(across, h.z) * (T(2) / pi)) * nh,
-                         angle_of(length(d), cos_d) * (T(2) / pi) * nd,
-                         angle_of(y, x) * (T(1) / pi) * np};
+        const auto angles = angles_of(std::array{across, length(d), y}, std::array{h.z, cos_d, x});
+        const T at[3] = {std::sqrt(angles[0] * (T(2) / pi)) * nh, angles[1] * (T(2) / pi) * nd,
+                         angles[2] * (T(1) / pi) * np};
         for (int k = 0; k < 3; ++k) {
             // What is no number stays within the table.
             const T place = at[k] > T(0) ? std::min(at[k], T(node_counts[k])) : T(0);
@@ -149,24 +157,23 @@ struct MerlPlace {
 
 /// Linear between the nodes around that are measured; nothing where they hold less than half.
 template <class T>
-std::optional<Vec3<T>> interpolate(const std::vector<Vec3f>& values, const MerlPlace<T>& at) {
+std::optional<Vec3<T>> interpolate(const std::vector<Lanes<float, 4>>& values,
+                                   const MerlPlace<T>& at) {
     const auto& [below, part] = at;
     const std::size_t h_step = below[0] < nh - 1 ? std::size_t(nd) * np : 0,
                       d_step = below[1] < nd - 1 ? np : 0;
-    const Vec3f* first = &values[position(below[0], below[1], below[2])];
+    const Lanes<float, 4>* first = &values[position(below[0], below[1], below[2])];
     const std::ptrdiff_t next = below[2] < np - 1 ? 1 : 1 - np;
-    Vec3<T> sum;
-    T found(0);
+    Lanes<T, 4> sum;
     for (int k = 0; k < 4; ++k) {
-        const Vec3f* v = first + (k & 1 ? h_step : 0) + (k & 2 ? d_step : 0);
+        const Lanes<float, 4>* v = first + (k & 1 ? h_step : 0) + (k & 2 ? d_step : 0);
         const T w = (k & 1 ? part[0] : T(1) - part[0]) * (k & 2 ? part[1] : T(1) - part[1]);
-        const T low = v[0].x < 0.f ? T(0) : w * (T(1) - part[2]),
-                high = v[next].x < 0.f ? T(0) : w * part[2];
-        sum += low * Vec3<T>(v[0]) + high * Vec3<T>(v[next]);
-        found += low + high;
+        sum += in(w, v[0]) * Lanes<T, 4>(w * (T(1) - part[2])) +
+               in(w, v[next]) * Lanes<T, 4>(w * part[2]);
     }
-    if (found < T(0.5)) return std::nullopt;
-    return sum / found;
+    if (sum[3] < T(0.5)) return std::nullopt;
+    const Lanes<T, 4> mean = sum / Lanes<T, 4>(sum[3]);
+    return Vec3<T>{mean[0], mean[1], mean[2]};
 }
 
 }  // namespace

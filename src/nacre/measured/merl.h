@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nacre/math/lanes.h"
 #include "nacre/math/vec.h"
 
 namespace nacre {
@@ -52,7 +53,8 @@ class MerlBrdf {
 
   private:
     friend MerlBrdf parse_merl(std::string_view bytes, const std::filesystem::path& path);
-    std::vector<Vec3f> values_;  ///< sr^-1; x < 0: not measured
+    /// sr^-1, and 1; all 0 where not measured, so that sums need not ask.
+    std::vector<Lanes<float, 4>> values_;
     std::size_t missing_ = 0;
 };
 

@@ -90,7 +90,7 @@ const MeasuredFormat& merl_format() {
         .summary =
             "isotropic BRDFs over half and difference angles, red, green and blue (Matusik "
             "et al. 2003)",
-        .memory = 0.5,
+        .memory = 0.7,
         .recognise = is_merl,
         .read = [](const MeasuredSource& source) -> std::unique_ptr<Measured> {
             return std::make_unique<MerlMeasured>(parse_merl(source.bytes, source.path));
