@@ -187,11 +187,20 @@ TEST(Rgl, SamplesFollowThePdf) {
             std::vector<double> observed(rows * columns), expected(rows * columns);
             Random random(stream_key(27, 7));
             int drawn = 0;
+            float there[3], again[3];
             for (int i = 0; i < count; ++i) {
                 const float u = random.next(), v = random.next();
-                const auto s = brdf.sample(Vec3f(given), u, v);
+                const auto s = brdf.sample(Vec3f(given), u, v, there);
                 if (!s) continue;
                 ++drawn;
+                // What comes with it is what `eval` and `pdf` say, together or each by itself.
+                const auto both = brdf.eval_pdf(Vec3f(given), s->direction, again);
+                ASSERT_TRUE(both);
+                ASSERT_EQ(*both, brdf.pdf(Vec3f(given), s->direction));
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(there[c], again[c], 2e-3 * std::abs(again[c]) + 1e-6);
+                ASSERT_TRUE(brdf.eval(Vec3f(given), s->direction, there));
+                for (int c = 0; c < 3; ++c) ASSERT_EQ(there[c], again[c]);
                 ASSERT_NEAR(length(s->direction), 1.f, 1e-5);
                 ASSERT_NEAR(brdf.pdf(Vec3f(given), s->direction), s->pdf, 2e-3 * s->pdf);
                 const double turn =

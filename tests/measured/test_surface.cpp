@@ -89,6 +89,31 @@ TEST(MeasuredSurface, DrawsByItsDensity) {
         check_sampling(surface("ggx", {{"alpha", "0.4"}}, 90., true, Light::does_both), side, 6);
 }
 
+/// What is drawn comes with its value and density, which are those of `eval` and `pdf`.
+TEST(MeasuredSurface, DrawsWithValueAndDensity) {
+    const MeasuredSurface s = surface("ggx", {{"alpha", "0.3"}}, 70., true, Light::does_both);
+    Random random(stream_key(11, 9));
+    int drawn = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3f wo = viewers(i % 2 ? 1.f : -1.f)[std::size_t(i) % 4];
+        const float u1 = random.next();
+        const Vec2f u2 = random.next2();
+        float with[3] = {7.f, 7.f, 7.f}, alone[3];
+        const auto d = s.draw(wo, u1, u2, with);
+        const auto wi = s.sample(wo, u1, u2);
+        ASSERT_EQ(bool(d), bool(wi));
+        if (!d) continue;
+        ++drawn;
+        EXPECT_EQ(d->wi, *wi);
+        EXPECT_EQ(d->pdf, s.pdf(*wi, wo));
+        s.eval(*wi, wo, alone);
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(with[c], alone[c]);
+        EXPECT_EQ(s.eval_pdf(*wi, wo, with), d->pdf);
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(with[c], alone[c]);
+    }
+    EXPECT_GT(drawn, 200);
+}
+
 /// What comes back of even light, by samples and by a grid of directions.
 TEST(MeasuredSurface, SamplesGiveTheAlbedo) {
     const MeasuredSurface s = surface("ggx", {{"alpha", "0.1"}});

@@ -87,28 +87,33 @@ float RglBrdf::factor(const Given& g, float x, float y) const {
     return t_.ndf.eval(x, y, one) / (4.f * t_.sigma.eval(square_x(g.theta), square_y(g.phi), one));
 }
 
+/// `scale` times the spectra at (u, v), where the warp of visible normals begins.
+void RglBrdf::look_up(const SliceMix& mix, float u, float v, float scale,
+                      std::span<float> out) const {
+    // Directions that are no numbers must not lead out of the table.
+    const auto place_on = [](float u, int nodes) { return u > 0.f ? u * float(nodes - 1) : 0.f; };
+    const float px = place_on(u, t_.width), py = place_on(v, t_.height);
+    const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
+    const float tx = px - float(x), ty = py - float(y);
+    const std::size_t n = std::size_t(t_.channels), row = std::size_t(t_.width) * n;
+    std::fill_n(out.begin(), n, 0.f);
+    for (int k = 0; k < mix.count; ++k) {
+        const float* s =
+            t_.spectra.data() + ((std::size_t(mix.slice[k]) * t_.height + y) * t_.width + x) * n;
+        const float w = scale * mix.weight[k];
+        const float w00 = w * (1.f - tx) * (1.f - ty), w10 = w * tx * (1.f - ty);
+        const float w01 = w * (1.f - tx) * ty, w11 = w * tx * ty;
+        for (std::size_t c = 0; c < n; ++c)
+            out[c] += w00 * s[c] + w10 * s[n + c] + w01 * s[row + c] + w11 * s[row + n + c];
+    }
+}
+
 bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out) const {
     if (!(given.z > 0.f && other.z > 0.f)) return false;
     Given g;
     const Half h = place(given, other, g);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
-    // Directions that are no numbers must not lead out of the table.
-    const auto place_on = [](float u, int nodes) { return u > 0.f ? u * float(nodes - 1) : 0.f; };
-    const float px = place_on(at.x, t_.width), py = place_on(at.y, t_.height);
-    const int x = std::min(int(px), t_.width - 2), y = std::min(int(py), t_.height - 2);
-    const float tx = px - float(x), ty = py - float(y);
-    const float scale = factor(g, h.x, h.y);
-    const std::size_t n = std::size_t(t_.channels), row = std::size_t(t_.width) * n;
-    std::fill_n(out.begin(), n, 0.f);
-    for (int k = 0; k < g.mix.count; ++k) {
-        const float* v =
-            t_.spectra.data() + ((std::size_t(g.mix.slice[k]) * t_.height + y) * t_.width + x) * n;
-        const float w = scale * g.mix.weight[k];
-        const float w00 = w * (1.f - tx) * (1.f - ty), w10 = w * tx * (1.f - ty);
-        const float w01 = w * (1.f - tx) * ty, w11 = w * tx * ty;
-        for (std::size_t c = 0; c < n; ++c)
-            out[c] += w00 * v[c] + w10 * v[n + c] + w01 * v[row + c] + w11 * v[row + n + c];
-    }
+    look_up(g.mix, at.x, at.y, factor(g, h.x, h.y), out);
     return true;
 }
 
@@ -123,6 +128,11 @@ Vec3f RglBrdf::direction_of(const Given& g, float x, float y, Vec3f& half) const
 }
 
 std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, float v) const {
+    return sample(given, u, v, {});
+}
+
+std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, float v,
+                                               std::span<float> out) const {
     if (!(given.z > 0.f)) return std::nullopt;
     const Given g = place(given);
     const auto bright = t_.luminance.sample(u, v, g.mix);
@@ -131,15 +141,22 @@ std::optional<RglBrdf::Sample> RglBrdf::sample(const Vec3f& given, float u, floa
     const Vec3f w = direction_of(g, at.x, at.y, half);
     const float given_h = dot(g.w, half);
     if (!(w.z > 0.f && given_h > 0.f)) return std::nullopt;
+    if (!out.empty()) look_up(g.mix, bright.x, bright.y, factor(g, at.x, at.y), out);
     return Sample{
         w, bright.density * at.density / reflected_solid_angle(at.x, sin_theta_of(half), given_h)};
 }
 
 float RglBrdf::pdf(const Vec3f& given, const Vec3f& other) const {
-    if (!(given.z > 0.f && other.z > 0.f)) return 0.f;
+    return eval_pdf(given, other, {}).value_or(0.f);
+}
+
+std::optional<float> RglBrdf::eval_pdf(const Vec3f& given, const Vec3f& other,
+                                       std::span<float> out) const {
+    if (!(given.z > 0.f && other.z > 0.f)) return std::nullopt;
     Given g;
     const Half h = place(given, other, g);
     const auto at = t_.vndf.invert(h.x, h.y, g.mix);
+    if (!out.empty()) look_up(g.mix, at.x, at.y, factor(g, h.x, h.y), out);
     return at.density * t_.luminance.density(at.x, at.y, g.mix) /
            reflected_solid_angle(h.x, h.sin_theta, h.given_h);
 }

@@ -50,7 +50,13 @@ class RglBrdf {
     };
     /// Draws the other direction; nothing where it would be below the horizon.
     std::optional<Sample> sample(const Vec3f& given, float u, float v) const;
+    /// The same with what `eval` says there, in `out` unless that is empty.
+    std::optional<Sample> sample(const Vec3f& given, float u, float v, std::span<float> out) const;
     float pdf(const Vec3f& given, const Vec3f& other) const;
+    /// What `pdf` says, and `eval` in `out` unless that is empty, by one look; nothing where `eval`
+    /// is false.
+    std::optional<float> eval_pdf(const Vec3f& given, const Vec3f& other,
+                                  std::span<float> out) const;
 
     const RglTables& tables() const { return t_; }
     /// What a node (x, y) of a slice's spectra stands for.
@@ -68,6 +74,7 @@ class RglBrdf {
     Half place(const Vec3f& given, const Vec3f& other, Given& g) const;
     Vec3f direction_of(const Given& g, float x, float y, Vec3f& half) const;
     float factor(const Given& g, float x, float y) const;
+    void look_up(const SliceMix& mix, float u, float v, float scale, std::span<float> out) const;
 
     RglTables t_;
     bool isotropic_;

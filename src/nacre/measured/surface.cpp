@@ -19,6 +19,10 @@ Vec3f held(const Vec3f& w, double degrees) {
     return {w.x * s, w.y * s, std::copysign(least, w.z)};
 }
 
+void raise_to_zero(std::span<float> values) {
+    for (float& v : values) v = std::max(v, 0.f);
+}
+
 }  // namespace
 
 MeasuredSurface::MeasuredSurface(std::unique_ptr<Measured> data) : data_(std::move(data)) {
@@ -91,8 +95,7 @@ void MeasuredSurface::eval(const Vec3f& wi, const Vec3f& wo, std::span<float> ou
     const std::size_t n = std::size_t(info().channels);
     if (rgl_) {
         if (!rgl_->eval(wo, wi, out)) std::fill_n(out.begin(), n, 0.f);
-        for (std::size_t c = 0; c < n; ++c) out[c] = std::max(out[c], 0.f);
-        return;
+        return raise_to_zero(out.first(n));
     }
     const bool known = value(wi, wo, out);
     const float cosine = std::abs(wi.z);
@@ -127,6 +130,32 @@ float MeasuredSurface::pdf(const Vec3f& wi, const Vec3f& wo) const {
     if (!sampler) return 0.f;
     const float chance = reflect ? side.reflect_chance : 1.f - side.reflect_chance;
     return chance * sampler->pdf(wi.z > 0.f ? wi : mirrored(wi), wo.z > 0.f ? wo : mirrored(wo));
+}
+
+float MeasuredSurface::eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const {
+    if (!rgl_) {
+        eval(wi, wo, out);
+        return pdf(wi, wo);
+    }
+    const std::span<float> values = out.first(std::size_t(info().channels));
+    const auto pdf = rgl_->eval_pdf(wo, wi, values);
+    if (!pdf) std::ranges::fill(values, 0.f);
+    raise_to_zero(values);
+    return pdf.value_or(0.f);
+}
+
+std::optional<MeasuredSurface::Drawn> MeasuredSurface::draw(const Vec3f& wo, float u1, Vec2f u2,
+                                                            std::span<float> out) const {
+    if (rgl_) {
+        const std::span<float> values = out.first(std::size_t(info().channels));
+        const auto s = rgl_->sample(wo, u2.x, u2.y, values);
+        if (!s) return std::nullopt;
+        raise_to_zero(values);
+        return Drawn{s->direction, s->pdf};
+    }
+    const auto wi = sample(wo, u1, u2);
+    if (!wi) return std::nullopt;
+    return Drawn{*wi, eval_pdf(*wi, wo, out)};
 }
 
 }  // namespace nacre

@@ -39,6 +39,14 @@ class MeasuredSurface {
     std::optional<Vec3f> sample(const Vec3f& wo, float u1, Vec2f u2) const;
     /// Density of `sample`, sr^-1.
     float pdf(const Vec3f& wi, const Vec3f& wo) const;
+    /// `pdf`, and `eval` in `out`: quicker than one after the other.
+    float eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const;
+    struct Drawn {
+        Vec3f wi;
+        float pdf;
+    };
+    /// `sample` with its density, and `eval` there in `out`.
+    std::optional<Drawn> draw(const Vec3f& wo, float u1, Vec2f u2, std::span<float> out) const;
 
     /// The part of pairs of directions, by cosine of both, of which the file says nothing and that
     /// stay 0: of the front, light reflected.

@@ -29,18 +29,23 @@ class MeasuredBsdf final : public Bsdf {
 
     Spectral eval(const Vec3f& wi, const Vec3f& wo) const override {
         float channels[max_measured_channels];
-        surface_->eval(wi, wo, std::span<float>(channels, std::size_t(surface_->info().channels)));
+        surface_->eval(wi, wo, channels);
         return scale_ * lanes_of(channels);
     }
     float pdf(const Vec3f& wi, const Vec3f& wo) const override { return surface_->pdf(wi, wo); }
+    BsdfValue eval_pdf(const Vec3f& wi, const Vec3f& wo) const override {
+        float channels[max_measured_channels];
+        const float pdf = surface_->eval_pdf(wi, wo, channels);
+        return {scale_ * lanes_of(channels), pdf};
+    }
     std::optional<BsdfSample> sample(const Vec3f& wo, float u1, Vec2f u2) const override {
-        const auto wi = surface_->sample(wo, u1, u2);
-        if (!wi) return std::nullopt;
+        float channels[max_measured_channels];
+        const auto drawn = surface_->draw(wo, u1, u2, channels);
+        if (!drawn || !(drawn->pdf > 0.f)) return std::nullopt;
         BsdfSample s;
-        s.wi = *wi;
-        s.pdf = pdf(s.wi, wo);
-        if (!(s.pdf > 0.f)) return std::nullopt;
-        s.weight = eval(s.wi, wo) / s.pdf;
+        s.wi = drawn->wi;
+        s.pdf = drawn->pdf;
+        s.weight = scale_ * lanes_of(channels) / s.pdf;
         return s;
     }
 
