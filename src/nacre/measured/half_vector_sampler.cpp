@@ -24,11 +24,6 @@ std::vector<float> evenly(float first, float last, int count) {
     return values;
 }
 
-Vec3f half_vector(float x, float y, float phi) {
-    const float theta = 0.5f * pi * x * x, s = std::sin(theta), a = (2.f * y - 1.f) * pi + phi;
-    return {s * std::cos(a), s * std::sin(a), std::cos(theta)};
-}
-
 Vec3f reflected(const Vec3f& w, const Vec3f& h) { return h * (2.f * dot(w, h)) - w; }
 
 }  // namespace
@@ -49,7 +44,7 @@ HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3f&, co
         for (int y = 0; y < nodes; ++y)
             for (int x = 0; x < nodes; ++x) {
                 const float u = float(x) / (nodes - 1);
-                const Vec3f h = half_vector(u, float(y) / (nodes - 1), isotropic ? azimuth : 0.f);
+                const Vec3f h = square_vector(u, float(y) / (nodes - 1), isotropic ? azimuth : 0.f);
                 const Vec3f wi = reflected(wo, h);
                 const float wo_h = dot(wo, h);
                 if (!(wi.z > 0.f && wo_h > 0.f)) continue;
@@ -69,30 +64,21 @@ HalfVectorSampler::HalfVectorSampler(const std::function<double(const Vec3f&, co
     warp_ = MarginalWarp(nodes, nodes, std::move(table));
 }
 
-SliceMix HalfVectorSampler::slices(const Vec3f& wo, float& phi) const {
-    const float azimuth = wo.x == 0.f && wo.y == 0.f ? 0.f : std::atan2(wo.y, wo.x);
-    phi = isotropic_ ? azimuth : 0.f;
-    return viewers_.at(azimuth, std::atan2(sin_theta_of(wo), wo.z));
-}
-
 Vec3f HalfVectorSampler::sample(const Vec3f& wo, float u1, Vec2f u2) const {
     if (u1 < by_cosine) return square_to_cosine_hemisphere(u2);
-    float phi;
-    const SliceMix mix = slices(wo, phi);
-    const auto at = warp_.sample(u2.x, u2.y, mix);
-    return reflected(wo, half_vector(at.x, at.y, phi));
+    const Polar viewer = polar_of(wo, wo)[0];
+    const auto at = warp_.sample(u2.x, u2.y, viewers_.at(viewer.phi, viewer.theta));
+    return reflected(wo, square_vector(at.x, at.y, isotropic_ ? viewer.phi : 0.f));
 }
 
 float HalfVectorSampler::pdf(const Vec3f& wi, const Vec3f& wo) const {
     if (!(wi.z > 0.f && wo.z > 0.f)) return 0.f;
-    float phi;
-    const SliceMix mix = slices(wo, phi);
     const Vec3f h = normalize(wi + wo);
-    const float s = sin_theta_of(h);
-    const float x = square_x(std::atan2(s, h.z));
-    const float y = square_y((s > 0.f ? std::atan2(h.y, h.x) : 0.f) - phi);
-    return by_cosine * wi.z / pi +
-           (1.f - by_cosine) * warp_.density(x, y, mix) / reflected_solid_angle(x, s, dot(wo, h));
+    const auto [viewer, half] = polar_of(wo, h);
+    const float x = square_x(half.theta), y = square_y(half.phi - (isotropic_ ? viewer.phi : 0.f));
+    const SliceMix mix = viewers_.at(viewer.phi, viewer.theta);
+    return by_cosine * wi.z / pi + (1.f - by_cosine) * warp_.density(x, y, mix) /
+                                       reflected_solid_angle(x, sin_theta_of(h), dot(wo, h));
 }
 
 }  // namespace nacre

@@ -30,8 +30,6 @@ class HalfVectorSampler {
     static constexpr float by_cosine = 0.15f;
 
   private:
-    SliceMix slices(const Vec3f& wo, float& phi) const;
-
     bool isotropic_;
     double mean_ = 0.;
     ParameterGrid viewers_;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "nacre/math/fast.h"
-#include "nacre/math/fast_atan2.h"
 #include "nacre/measured/half_vector_square.h"
 
 namespace nacre {
@@ -13,16 +11,6 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-struct Polar {
-    float theta, phi;
-};
-/// Of two unit vectors at once.
-std::array<Polar, 2> polar_of(const Vec3f& a, const Vec3f& b) {
-    const Lanes<float, 4> angles =
-        fast_atan2(Lanes<float, 4>(sin_theta_of(a), a.y, sin_theta_of(b), b.y),
-                   Lanes<float, 4>(a.z, a.x, b.z, b.x));
-    return {Polar{angles[0], angles[1]}, Polar{angles[2], angles[3]}};
-}
 }  // namespace
 
 /// A given direction, turned into the measured range, and where its slices are.
@@ -118,11 +106,7 @@ bool RglBrdf::eval(const Vec3f& given, const Vec3f& other, std::span<float> out)
 }
 
 Vec3f RglBrdf::direction_of(const Given& g, float x, float y, Vec3f& half) const {
-    // theta = x^2 pi/2 and phi in turns.
-    const Vec2f polar = fast_unit_circle(0.25f * x * x);
-    const float turns = y + 0.5f + (isotropic_ ? g.phi / (2.f * pi) : 0.f);
-    const Vec2f around = fast_unit_circle(turns - std::floor(turns));
-    half = {polar.y * around.x, polar.y * around.y, polar.x};
+    half = square_vector(x, y, isotropic_ ? g.phi : 0.f);
     const Vec3f w = half * (2.f * dot(g.w, half)) - g.w;
     return {w.x * g.sign_x, w.y * g.sign_y, w.z};
 }
