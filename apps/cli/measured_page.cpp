@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "nacre/math/error.h"
 #include "nacre/measured/open_measured.h"
+#include "nacre/reflectance/registry.h"
 
 namespace nacre::cli {
 namespace {
@@ -56,6 +58,13 @@ ordered_json describe_measured(const std::filesystem::path& file, const Measured
     json["largest_exit"] = to_tenth(i.largest_exit);
     if (!i.notes.empty()) json["notes"] = i.notes;
     return json;
+}
+
+void refuse_data_as_model(const std::string& name, std::string_view instead) {
+    std::error_code ignored;
+    if (!models().look(name) && std::filesystem::exists(name, ignored))
+        throw InputError(
+            fmt::format("'{}' is data, not the name of a model; use nacre data {}", name, instead));
 }
 
 ordered_json describe_measured(const std::filesystem::path& file) {

@@ -16,4 +16,8 @@ bool has_measured_extension(const std::filesystem::path& file);
 nlohmann::ordered_json describe_measured(const std::filesystem::path& file);
 nlohmann::ordered_json describe_measured(const std::filesystem::path& file, const Measured& data);
 
+/// Throws InputError if what should be the name of a model is that of a file or folder, and of no
+/// model: `nacre data instead` is for those.
+void refuse_data_as_model(const std::string& name, std::string_view instead);
+
 }  // namespace nacre::cli

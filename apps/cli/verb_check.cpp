@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/measured_page.h"
 #include "apps/cli/number_option.h"
 #include "apps/cli/progress_bar.h"
 #include "apps/cli/verb.h"
@@ -104,7 +105,9 @@ int check_models(const CheckArguments& o) {
 int run(const CheckArguments& o) {
     if (o.model.empty() == o.vectors.empty())
         throw InputError("give the name of a model, 'all', or --vectors FILE");
-    return o.model.empty() ? check_file(o.vectors) : check_models(o);
+    if (o.model.empty()) return check_file(o.vectors);
+    refuse_data_as_model(o.model, "audit");
+    return check_models(o);
 }
 
 }  // namespace

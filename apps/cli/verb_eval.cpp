@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/direction.h"
+#include "apps/cli/measured_page.h"
 #include "apps/cli/number_option.h"
 #include "apps/cli/plot.h"
 #include "apps/cli/verb.h"
@@ -119,6 +120,7 @@ int run(const EvalArguments& o) {
         throw InputError("give one of --albedo, --slice, --lobe, --curve");
     Settings settings;
     for (const std::string& s : o.set) settings.push_back(parse_setting(s));
+    refuse_data_as_model(o.model, "eval");
     const AnyModel model = make_model(o.model, settings);
     if (o.albedo && !o.wi.empty()) {
         const Vec3d wi = parse_direction(o.wi, "--wi");

@@ -48,6 +48,9 @@ TEST_F(ModelVerbs, AnswerWrongCommandLinesExactlyAndWriteNothing) {
          "-o needs one of --albedo, --slice, --lobe, --curve"},
         {"check", "give the name of a model, 'all', or --vectors FILE"},
         {"check --vectors missing.json", "cannot read 'missing.json'"},
+        {"check /dev/null", "'/dev/null' is data, not the name of a model; use nacre data audit"},
+        {"eval /dev/null --wi 0,0,1 --wo 0,0,1",
+         "'/dev/null' is data, not the name of a model; use nacre data eval"},
     };
     for (const auto& [arguments, message] : cases) {
         const Outcome r = nacre(arguments);
