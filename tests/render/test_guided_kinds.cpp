@@ -150,6 +150,41 @@ class GuidedKinds : public RenderTest {
             }
         }
     }
+    /// Light scattered once under a lamp so large that the walk meets it about as densely as proposals
+    /// do (or, inside, as connections do): there a wrong weight makes the most of a difference.
+    void compare_under_large_lamps(int pixels, int pixels_without) {
+        const std::string large = lamp({3.25, 0, 2.25}, 2.6);
+        const std::string haze = "<medium type=\"homogeneous\" id=\"haze\">" +
+                                 xml::number("sigma_t", 0.5) + xml::number("albedo", 0.2) +
+                                 "</medium>" + xml::sphere({}, 7, null + ref("interior", "haze"));
+        struct Case {
+            std::string name, objects;
+            float x = 0.05f;  // from where the lamp's middle is not far from the horizon
+        };
+        const std::vector<Case> cases{
+            {"cloud", xml::sphere({}, 1, smooth + cloud(10)) + large},
+            {"rough cloud", xml::sphere({}, 1, rough + cloud(10)) + large},
+            {"haze", haze + shared(4) +
+                         xml::sphere({}, 1, smooth + ref("interior") + ref("exterior", "haze")) +
+                         large},
+            // Another lamp is the one that is chosen more often, of all.
+            {"lamp inside",
+             shared(2) + xml::sphere({}, 1, smooth + ref("interior")) + lamp({}, 0.6, 1) +
+                 lamp({0, 0, -8}, 0.5, 300),
+             0.25f}};
+        for (const Case& k : cases) {
+            const auto light = [&](bool guided, int n) {
+                return estimate(
+                    scene(xml::integrator("volpath", xml::integer("max_depth", 4) +
+                                                         xml::flag("guided_exits", guided)) +
+                          k.objects),
+                    ray_bundle({k.x, 0, 1.125f}, {0, 0, -1}, 0.05f),
+                    {.pixels = n, .seed = guided ? 61u : 62u});
+            };
+            expect_agreement(light(true, pixels), light(false, pixels_without),
+                             sidak_deviations(12), k.name);
+        }
+    }
     /// Whether proposals are made at the first collisions below a shape.
     static bool is_guided(const Scene& s, std::uint32_t shape) {
         const VolumePathTracer tracer(s);
@@ -168,7 +203,12 @@ TEST_F(GuidedKinds, LeaveTheMean) { compare_all(-1, 300, 1000); }
 
 using LongGuidedKinds = GuidedKinds;
 TEST_F(LongGuidedKinds, LeaveSingleScattering) { compare_all(4, 10000, 50000); }
+TEST_F(LongGuidedKinds, LeaveSingleScatteringUnderLargeLamps) {
+    compare_under_large_lamps(30000, 80000);
+}
 TEST_F(LongGuidedKinds, LeaveTheMean) { compare_all(-1, 5000, 20000); }
+
+TEST_F(GuidedKinds, LeaveSingleScatteringUnderLargeLamps) { compare_under_large_lamps(2000, 5000); }
 
 TEST_F(GuidedKinds, TheGridLeavesEachPathItself) {
     auto all = kinds();

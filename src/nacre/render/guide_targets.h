@@ -7,9 +7,9 @@
 namespace nacre {
 
 /// The `most` strongest lights outside, as seen from the centre of `object`, the box of `boundary`:
-/// parallelograms as they are, spheres
-/// as they are, every other area by its bounding sphere; of an environment what stands out of its
-/// mean; lights that are points only behind a rough boundary, which lets them be drawn.
+/// parallelograms as they are, spheres as they are, every other area by its bounding sphere unless
+/// that centre lies in it; of an environment what stands out of its mean; lights that are points only
+/// behind a rough boundary, which lets them be drawn.
 std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object,
                                             const ExitBoundary& boundary, int most);
 

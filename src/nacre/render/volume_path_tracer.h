@@ -28,6 +28,8 @@ namespace nacre {
 class VolumePathTracer : public Integrator {
   public:
     explicit VolumePathTracer(const Scene& scene, const Work& work = {});
+    VolumePathTracer(const VolumePathTracer&) = delete;
+    VolumePathTracer& operator=(const VolumePathTracer&) = delete;
 
     Spectral radiance(const Ray& ray, Sampler& sampler, const Wavelengths& wavelengths,
                       RayCounts& counts) const override;
