@@ -27,6 +27,17 @@ class ExitGuideTest : public RenderTest {
     }
 };
 
+/// The first shape that holds a medium.
+std::uint32_t shape_of(const Scene& scene) {
+    const auto found = std::ranges::find_if(
+        scene.shapes, [](const ShapeBinding& s) { return s.interior != nullptr; });
+    return std::uint32_t(found - scene.shapes.begin());
+}
+
+bool is_active(const VolumePathTracer::Piece& piece) {
+    return std::ranges::any_of(piece.guides, &ExitGuide::active);
+}
+
 /// Directions about `frame` in cells of equal solid angle.
 struct DirectionCells {
     static constexpr int rings = 60, sectors = 40, count = rings * sectors;
@@ -68,13 +79,13 @@ TEST_F(ExitGuideTest, SamplesFollowTheirDensity) {
     for (const auto& [name, lights, boundary] : cases) {
         const Scene s = lit_ball(lights, boundary);
         const VolumePathTracer tracer(s);
-        const auto& info = tracer.info(s.media.front().get());
-        ASSERT_TRUE(info.guide.active()) << name;
+        const auto& piece = tracer.piece(shape_of(s), true);
+        ASSERT_TRUE(is_active(piece)) << name;
         for (const Point3f y :
              {Point3f(0, 0, -0.9f), Point3f(0.3f, 0.2f, -0.8f), Point3f(0, 0.6f, -0.6f)}) {
-            const auto cell = info.grid.locate(y);
+            const auto cell = piece.grid.locate(y);
             ASSERT_GE(cell.guide, 0) << name;
-            const ExitGuide::Proposal proposal = info.guide.at(y, cell.guide);
+            const ExitGuide::Proposal proposal = piece.proposal(y, cell.guide);
             ASSERT_GE(proposal.probability(), 0.f);
             ASSERT_LE(proposal.probability(), 1.f);
             if (!(proposal.probability() > 0.f)) continue;
@@ -118,7 +129,7 @@ TEST_F(ExitGuideTest, SamplesFollowTheirDensity) {
 // enough, however it is given.
 TEST_F(ExitGuideTest, IsActiveWhereThereIsALightToAimAt) {
     const auto active = [&](const Scene& s) {
-        return VolumePathTracer(s).info(s.media.front().get()).guide.active();
+        return is_active(VolumePathTracer(s).piece(shape_of(s), true));
     };
     EXPECT_TRUE(active(lit_ball(ball({0, 0, 4}, 1))));
     EXPECT_FALSE(active(lit_ball(xml::constant_light())));

@@ -9,13 +9,16 @@ namespace nacre {
 
 /// Light that meets a boundary from directions `direction(u)`, u uniform: calls `f(wi, share,
 /// back)` for each of `samples` ways that it goes on, `share` a part of all its power and `back`
-/// whether that stays on its side. Same `key`, same samples.
+/// whether that stays on its side. Same `key`, same samples. `uv`: where, in the coordinates of the
+/// material's textures.
 template <class Direction, class F>
 void for_boundary_samples(const Material& material, int samples, std::uint64_t key,
-                          Direction&& direction, F&& f) {
+                          Direction&& direction, F&& f, Vec2f uv = {}) {
     Sampler sampler(Sampler::Kind::sobol, 0, samples);
     BsdfScratch scratch;
-    const Bsdf& bsdf = material.at(SurfacePoint{}, Wavelengths::rgb_bands(), scratch);
+    SurfacePoint at;
+    at.uv = uv;
+    const Bsdf& bsdf = material.at(at, Wavelengths::rgb_bands(), scratch);
     for (int i = 0; i < samples; ++i) {
         sampler.start(key, std::uint32_t(i));
         const Vec3f wo = direction(sampler.next2d());

@@ -37,18 +37,52 @@ Vec3f refract_in(const Vec3f& outside, const Vec3f& n, float cos_outside, float 
     return (outside - n * cos_outside) * (1.f / eta) + n * cos_inside;
 }
 
+// Mean over bands.
+float mean_extinction(const Medium& medium, const Point3f& p) {
+    const Spectral s = medium.coefficients(p, Wavelengths::rgb_bands()).sigma_t;
+    return (s[0] + s[1] + s[2]) / 3.f;
+}
+
+// And over a line.
+float mean_extinction(const Medium& medium, const Point3f& a, const Point3f& b) {
+    constexpr int steps = 8;
+    float sum = 0.f;
+    for (int i = 0; i < steps; ++i)
+        sum += mean_extinction(medium, a + (b - a) * ((static_cast<float>(i) + 0.5f) / steps));
+    return sum / steps;
+}
+
+// Over a box.
+float mean_extinction(const Medium& medium, const Box3f& box) {
+    if (medium.homogeneous()) {
+        const Vec3f sigma_t = medium.sigma_t->rgb();
+        return (sigma_t.x + sigma_t.y + sigma_t.z) / 3.f * medium.scale;
+    }
+    constexpr int steps = 16;
+    const Vec3f step = box.diagonal() * (1.f / steps);
+    float sum = 0.f;
+    for (int x = 0; x < steps; ++x)
+        for (int y = 0; y < steps; ++y) {
+            const Vec3f at{(static_cast<float>(x) + 0.5f) * step.x,
+                           (static_cast<float>(y) + 0.5f) * step.y, 0.f};
+            for (int z = 0; z < steps; ++z)
+                sum += mean_extinction(
+                    medium,
+                    box.lower + at + Vec3f(0.f, 0.f, (static_cast<float>(z) + 0.5f) * step.z));
+        }
+    return sum / (steps * steps * steps);
+}
+
 }  // namespace
 
-ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
-                     std::span<const std::uint32_t> boundary, float eta, float spread,
-                     DistanceGrid& grid, const Work& work)
-    : eta_(eta), spread_(spread) {
-    const Vec3f sigma_t = medium.sigma_t->rgb();
-    sigma_t_ = (sigma_t.x + sigma_t.y + sigma_t.z) / 3.f * medium.scale;
+ExitGuide::ExitGuide(const Scene& scene, const Medium& medium, const ExitBoundary& boundary,
+                     DistanceGrid& grid, const Work& work, std::int32_t first_index)
+    : eta_(boundary.eta), spread_(boundary.spread) {
     Box3f bounds;
-    for (const std::uint32_t shape : boundary) bounds.extend(scene.rays.bounds(shape));
-    targets_ = find_guide_targets(scene, bounds, eta, spread, max_targets);
-    if (targets_.empty() || !(sigma_t_ > 0.f)) return;
+    for (const std::uint32_t shape : boundary.shapes) bounds.extend(scene.rays.bounds(shape));
+    const float sigma_t = mean_extinction(medium, bounds);
+    targets_ = find_guide_targets(scene, bounds, boundary, max_targets);
+    if (targets_.empty() || !(sigma_t > 0.f)) return;
 
     // The most that the targets could bring: at the surface, facing each. Under a sky that brings
     // much by itself proposals are worth less.
@@ -60,7 +94,7 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
     if (!(most > 0.f)) return;
     reference_ = certain_share * most;
 
-    const float limit = depth_in_free_paths / sigma_t_ + 2.f * grid.half_diagonal();
+    const float limit = depth_in_free_paths / sigma_t + 2.f * grid.half_diagonal();
     std::vector<std::uint32_t> near;
     for (std::size_t c = 0; c < grid.cell_count(); ++c)
         if (grid.clearance(c) + grid.half_diagonal() < limit)
@@ -68,7 +102,7 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
     cells_.resize(near.size());
     const auto nearest = [&](const Point3f& p, float within) -> std::optional<SurfacePoint> {
         std::optional<Hit> best;
-        for (const std::uint32_t shape : boundary)
+        for (const std::uint32_t shape : boundary.shapes)
             if (const auto hit = scene.rays.closest(p, best ? best->t : within, shape, 0.1f))
                 best = hit;
         if (!best) return {};
@@ -81,6 +115,9 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
         const auto first = nearest(c, 2.f * limit);
         // Cells that are outside as a whole see no collisions.
         if (!first || dot(c - first->p, first->ng) > grid.half_diagonal()) return;
+        const float depth = length(c - first->p);
+        for (const std::uint32_t shape : boundary.others)
+            if (scene.rays.closest(c, depth, shape, 0.1f)) return;
         Cell& cell = cells_[i];
         cell.normals.fill(first->shading.n);
         cell.offset = dot(first->shading.n, first->p);
@@ -88,7 +125,7 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
         // depth, whichever is larger: what leaves from here leaves through about that much of the
         // surface. No point so displaced is farther from the surface than the centre and the
         // displacement together, which keeps the searches short.
-        const float depth = length(c - first->p), step = std::max(depth, grid.cell_size());
+        const float step = std::max(depth, grid.cell_size());
         for (int k = 1; k < planes; ++k) {
             const float angle =
                 2.f * std::numbers::pi_v<float> * static_cast<float>(k - 1) / (planes - 1);
@@ -97,6 +134,7 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
             if (const auto other = nearest(c + aside * step, 1.001f * (depth + step)))
                 cell.normals[static_cast<std::size_t>(k)] = other->shading.n;
         }
+        const float over = medium.homogeneous() ? sigma_t : mean_extinction(medium, first->p, c);
         for (std::size_t j = 0; j < targets_.size(); ++j) {
             float cosine = 1.f;
             cell.strength[j] =
@@ -110,11 +148,12 @@ ExitGuide::ExitGuide(const Scene& scene, const Medium& medium,
                     cosine = std::max(cosine, s.cos_in);
                 }
             }
-            cell.fall[j] = sigma_t_ / cosine;
+            cell.fall[j] = over / cosine;
         }
         float total = 0.f;
         for (std::size_t j = 0; j < targets_.size(); ++j) total += cell.strength[j];
-        if (total > min_probability) grid.set_guide(near[i], static_cast<std::int32_t>(i));
+        if (total > min_probability)
+            grid.set_guide(near[i], first_index + static_cast<std::int32_t>(i));
     });
 }
 
@@ -126,7 +165,7 @@ float ExitGuide::strength(const GuideTarget& target, const Point3f& at, const Ve
         return s.value;
     }
     const Vec3f to = target.center - at;
-    const float d2 = dot(to, to);
+    const float d2 = std::max(1e-12f, dot(to, to));
     const Vec3f direction = target.point ? target.towards(at) : to * (1.f / std::sqrt(d2));
     const float cos_out = dot(direction, normal);
     if (cos_out < 0.02f) return 0.f;

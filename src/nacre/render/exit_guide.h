@@ -30,6 +30,18 @@
 
 namespace nacre {
 
+/// Surfaces of one index through which paths are guided out of a medium.
+struct ExitBoundary {
+    std::vector<std::uint32_t> shapes;  ///< the medium is inside of each
+    float eta = 1.f;                    ///< index inside over outside, > 1
+    /// 0: smooth; else rough, spreading light that leaves by about so much (tangent of the angle).
+    float spread = 0.f;
+    /// Other boundaries of the matter: where those are nearer, paths are not guided.
+    std::vector<std::uint32_t> others{};
+    /// Lights that are in the matter, where straight lines reach them.
+    std::vector<LightPtr> lights_inside{};
+};
+
 /// What directions are proposed towards: an area that shines, the bright part of an environment or,
 /// below rough boundaries, a light that is a point. A stand-in for the light; it need not match its
 /// shape.
@@ -55,15 +67,16 @@ struct GuideTarget {
 class ExitGuide {
   public:
     ExitGuide() = default;
-    /// Guides paths in `medium` out through `boundary` (shapes), all of which are boundaries of
-    /// relative index `eta`: smooth ones if `spread` is 0, else rough ones that spread light that
-    /// leaves by about so much (tangent of the angle). Marks the cells of `grid` near the boundary.
-    /// Without lights worth guiding to, `active` is false. Throws Stopped if `work` says so.
-    ExitGuide(const Scene& scene, const Medium& medium, std::span<const std::uint32_t> boundary,
-              float eta, float spread, DistanceGrid& grid, const Work& work = {});
+    /// Guides paths in `medium` out through `boundary`. Marks the cells of `grid` near it, with
+    /// indices from `first_index` on. Without lights worth guiding to, `active` is false. Throws
+    /// Stopped if `work` says so.
+    ExitGuide(const Scene& scene, const Medium& medium, const ExitBoundary& boundary,
+              DistanceGrid& grid, const Work& work = {}, std::int32_t first_index = 0);
 
     bool active() const { return !cells_.empty() && !targets_.empty(); }
     bool rough() const { return spread_ > 0.f; }
+    /// So many indices are its own.
+    std::int32_t size() const { return static_cast<std::int32_t>(cells_.size()); }
     std::size_t memory() const { return cells_.size() * sizeof(Cell); }
 
     static constexpr int max_targets = 4;
@@ -88,7 +101,8 @@ class ExitGuide {
         std::array<float, max_targets> choice_{};   // probability of each target
         std::array<GuideLobe, max_targets> lobes_;  // of rough boundaries, but for the sky's
     };
-    /// `cell` is the index that the grid holds for the cell of y; it must not be -1.
+    /// `cell` is the index that the grid holds for the cell of y, less the guide's first; it must
+    /// not be negative.
     Proposal at(const Point3f& y, std::int32_t cell) const;
 
   private:
@@ -112,7 +126,7 @@ class ExitGuide {
 
     std::vector<Cell> cells_;
     std::vector<GuideTarget> targets_;
-    float eta_ = 1.f, sigma_t_ = 0.f, spread_ = 0.f;
+    float eta_ = 1.f, spread_ = 0.f;
     float reference_ = 1.f;  // strength at which a proposal is certain
 };
 

@@ -71,7 +71,7 @@ Vec3f GuideTarget::towards(const Point3f& y) const {
 GuideLobe GuideTarget::lobe(const Point3f& y, float spread) const {
     if (point) return {towards(y), spread * spread};
     const Vec3f to = center - y;
-    const float d2 = dot(to, to);
+    const float d2 = std::max(1e-12f, dot(to, to));
     // Half of a disk lies within 1 / sqrt(2) of its radius.
     return {to * (1.f / std::sqrt(d2)),
             spread * spread + 0.5f * area() * std::numbers::inv_pi_v<float> / d2};
@@ -126,14 +126,21 @@ Vec3f GuideTarget::sample(const Point3f& y, Random& random) const {
                      y);
 }
 
-std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, float eta,
-                                            float spread, int most) {
+std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object,
+                                            const ExitBoundary& boundary, int most) {
+    const float spread = boundary.spread;
+    const auto is_inside = [&](const Light* light) {
+        return std::ranges::any_of(boundary.lights_inside,
+                                   [&](const LightPtr& inside) { return inside.get() == light; });
+    };
     std::vector<std::pair<float, GuideTarget>> found;
     const Point3f middle = object.center();
     for (std::uint32_t shape = 0; shape < scene.shapes.size(); ++shape) {
         const Light* light = scene.shapes[shape].light;
-        if (!light) continue;
+        if (!light || is_inside(light)) continue;
         GuideTarget target = stand_in(scene, shape);
+        // What shines all around is met by chance.
+        if (length(target.center - middle) < target.radius) continue;
         const double area = scene.rays.area(shape);
         // Power of a diffuse emitter is pi * area * radiance.
         target.radiance = light->power() / static_cast<float>(std::numbers::pi * area);
@@ -142,6 +149,7 @@ std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& obj
         if (strength > 0.f) found.emplace_back(strength, target);
     }
     for (const LightPtr& light : scene.lights) {
+        if (is_inside(light.get())) continue;
         if (light->is_delta() && spread > 0.f) {
             GuideTarget target;
             target.point = light.get();
@@ -157,7 +165,7 @@ std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& obj
         }
         if (light->is_infinite()) {
             GuideTarget target;
-            target.sky = GuideSky::of(*light, eta, spread);
+            target.sky = GuideSky::of(*light, boundary.eta, spread);
             if (target.sky) found.emplace_back(target.sky->flux(), target);
         }
     }

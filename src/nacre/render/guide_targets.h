@@ -6,12 +6,12 @@
 
 namespace nacre {
 
-/// The `most` strongest lights as seen from the centre of `object`, whose boundary has the index
-/// `eta` and spreads light that leaves by `spread` (0: smooth): parallelograms as they are, spheres
-/// as they are, every other area by its bounding sphere; of an environment what stands out of its
-/// mean; lights that are points only behind a rough boundary, which lets them be drawn.
-std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object, float eta,
-                                            float spread, int most);
+/// The `most` strongest lights outside, as seen from the centre of `object`, the box of `boundary`:
+/// parallelograms as they are, spheres as they are, every other area by its bounding sphere unless
+/// that centre lies in it; of an environment what stands out of its mean; lights that are points only
+/// behind a rough boundary, which lets them be drawn.
+std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object,
+                                            const ExitBoundary& boundary, int most);
 
 /// Luminance of what a light that is a point sends to `at`, on a surface that faces it.
 float irradiance_of(const Light& point, const Point3f& at);

@@ -13,13 +13,14 @@ namespace nacre {
 struct VolumePath::WalkSurroundings {
     VolumePath& path;
     const VolumePathTracer::MediumInfo& info;
+    const VolumePathTracer::Piece& piece;
     const MediumLanes& lanes;
     // A stream of its own: the walk's numbers have already decided where the collision is, and a
     // proposal must not know them.
     Random random;
     std::optional<Hit> hit{};
 
-    DistanceGrid::Cell locate(const Point3f& p) const { return info.grid.locate(p); }
+    DistanceGrid::Cell locate(const Point3f& p) const { return piece.grid.locate(p); }
 
     bool surface(const Point3f& p, const Vec3f& d, float s, float& t) {
         ++path.counts_.rays;
@@ -31,21 +32,20 @@ struct VolumePath::WalkSurroundings {
     void collided(const Walker& w, const DistanceGrid::Cell& cell) {
         if (!path.within_depth(static_cast<int>(w.collisions) + 1)) return;
         if (!path.tracer_.beams_.empty()) connect_through_boundary(w, cell.clearance);
-        if (cell.guide < 0) return;
-        const ExitGuide::Proposal proposal = info.guide.at(w.p, cell.guide);
-        if (!(random.next() < proposal.probability())) return;
-        if (info.guide.rough())
-            path.guided_connection(proposal, w, lanes, random);
-        else
-            path.guided_exit(proposal, w, lanes, random);
+        if (cell.guide >= 0)
+            path.guided_exit({w.p, w.d, &lanes, w.collisions, w.length}, cell.guide, random);
     }
 
     void connect_through_boundary(const Walker& w, float clearance) {
         const Reach reach = draw_reach(lanes, random);
         // Light from the boundary comes at least as far as the boundary is away.
         const bool near = reach.length > clearance;
-        const bool chain = info.chain_chance > 0.f && random.next() < info.chain_chance &&
-                           path.within_depth(static_cast<int>(w.collisions) + 2);
+        bool chain = info.chain_chance > 0.f && random.next() < info.chain_chance &&
+                     path.within_depth(static_cast<int>(w.collisions) + 2);
+        // Numbers of its own, lest what is known of distances decide over those of later collisions.
+        const bool by_reach = chain && info.chain_by_reach;
+        Random own = by_reach ? Random(random.next_bits()) : random;
+        chain &= near || !by_reach;
         if (!near && !chain) return;
         const Spectral density = path.density_ * lanes.walk_density(w.collisions, w.length);
         const Spectral carried = path.throughput_ * lanes.survival(w.collisions) * density *
@@ -53,7 +53,7 @@ struct VolumePath::WalkSurroundings {
         if (near) path.connect_collision_through_boundary(w.p, w.d, carried, reach, random);
         if (chain)
             path.connect_collision_by_chain(w.p, w.d, carried * Spectral(1.f / info.chain_chance),
-                                            random);
+                                            by_reach ? reach : Reach{}, by_reach ? own : random);
     }
 };
 
@@ -67,7 +67,8 @@ VolumePath::VolumePath(const VolumePathTracer& tracer, const Ray& ray, Sampler& 
       max_depth_(tracer.scene_.integrator.max_depth),
       hero_(draw_hero(wavelengths, sampler)),
       ray_(ray),
-      medium_(tracer.scene_.camera_medium) {}
+      medium_(tracer.scene_.camera_medium),
+      piece_(&tracer.unknown_) {}
 
 Spectral VolumePath::trace() {
     while (within_depth(0)) {
@@ -105,7 +106,8 @@ VolumePath::Event VolumePath::travel_homogeneous() {
         return hit_ ? Event::surface : Event::escaped;
     }
     const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
-    WalkSurroundings surroundings{*this, info, lanes, Random(sampler_.random().next_bits())};
+    WalkSurroundings surroundings{*this, info, *piece_, lanes,
+                                  Random(sampler_.random().next_bits())};
     Walker walker{ray_.o, ray_.d, ray_.d, sampler_.random()};
     const std::uint32_t chunk = lanes.chunk(walk_chunk);
     for (;;) {
@@ -114,8 +116,8 @@ VolumePath::Event VolumePath::travel_homogeneous() {
         walker.collisions = 0;
         walker.length = 0.f;
         const WalkEnd end =
-            walk(walker, lanes.hero_sigma, medium_->phase, info.connect ? 1 : std::min(chunk, left),
-                 surroundings, lanes.hero_chance);
+            walk(walker, lanes.hero_sigma, medium_->phase,
+                 piece_->connect ? 1 : std::min(chunk, left), surroundings, lanes.hero_chance);
         sampler_.random() = walker.random;
         counts_.scatterings += walker.collisions;
         depth_ += static_cast<int>(walker.collisions);
@@ -137,7 +139,7 @@ VolumePath::Event VolumePath::travel_homogeneous() {
             pass(lanes, walker.free_path);
             return Event::surface;
         }
-        if (info.connect) return Event::collision;
+        if (piece_->connect) return Event::collision;
         if (!within_depth(0)) return Event::ended;
         const float chance = walk_chance(relative_weight(), depth_ > scene_.integrator.rr_depth);
         if (chance < 1.f && !survives(chance, walker.random.next(), throughput_))
@@ -198,20 +200,19 @@ VolumePath::Event VolumePath::travel_heterogeneous() {
 
 bool VolumePath::at_collision() {
     if (!within_depth(0)) return false;
-    connect_to_light(nullptr, nullptr, {});
+    if (piece_->connect) connect_to_light(nullptr, nullptr, {});
     // Where extinction does not vary, the walk has done this.
-    if (!medium_->homogeneous() && !tracer_.beams_.empty() && within_depth(1))
-        connect_collision_through_boundary(
-            ray_.o, ray_.d, throughput_ * density_ * Spectral(1.f / mean_of(density_)), {},
-            sampler_.random());
+    if (!medium_->homogeneous() && within_depth(1)) meet_lights_through_boundary();
     if (depth_ > scene_.integrator.rr_depth &&
         !survives(collision_chance(relative_weight()), sampler_.random().next(), throughput_))
         return false;
     const Vec3f d_in = ray_.d;
     const Vec3f d = medium_->phase.sample(d_in, sampler_.random().next2());
-    other_strategy_ = Strategy::light_sampling;
+    other_strategy_ = piece_->connect ? Strategy::light_sampling : Strategy::none;
     other_density_ = density_;
+    last_collision_ = {true, ray_.o, d_in, density_};
     vertex_ = ray_.o;
+    vertex_lights_ = &reachable();
     vertex_pdf_ = medium_->phase.eval(dot(d_in, d));
     ray_ = {ray_.o, d};
     return true;
@@ -250,8 +251,8 @@ bool VolumePath::at_surface() {
             return follow(at, bsdf, wo, *refracted);
         }
     }
-    if (depth_ == 0 && wo.z > 0.f && shape.interior && tracer_.info(shape.interior).guide.rough())
-        return split_at_rough_boundary(at, bsdf, wo, material.rough_boundary_eta(), u2);
+    if (depth_ == 0 && wo.z > 0.f && tracer_.exit(at.shape) == VolumePathTracer::Exit::rough)
+        return split_at_rough_boundary(at, bsdf, wo, material.facet_eta(), u2);
     const auto sample = bsdf.sample(wo, u1, u2);
     return sample && max_lane(sample->weight) > 0.f && follow(at, bsdf, wo, *sample);
 }
@@ -271,12 +272,13 @@ bool VolumePath::follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& w
         throughput_ *= sample.weight;
         eta_ *= sample.eta;
         vertex_ = at.p;
+        vertex_lights_ = &tracer_.lights_;
         vertex_pdf_ = sample.pdf;
         other_density_ = density_ + guided_;
         other_strategy_ = sample.delta ? Strategy::none : Strategy::light_sampling;
         // From outside as the interpolated normal sees it, no proposal would have come.
         if (sample.delta && last_collision_.valid && wo.z < 0.f && sample.wi.z > 0.f)
-            expect_guided_exit(sample.pdf);
+            expect_guided_exit(at, sample.pdf);
     }
     last_collision_.valid = false;
     if (sample.single_wavelength && !single_wavelength_) {
@@ -294,8 +296,10 @@ bool VolumePath::follow(const SurfacePoint& at, const Bsdf& bsdf, const Vec3f& w
 void VolumePath::leave(const SurfacePoint& at, const Vec3f& direction) {
     ray_ = {at.spawn(direction), direction};
     const ShapeBinding& shape = scene_.shapes[at.shape];
-    if (shape.separates_media)
-        medium_ = dot(direction, at.ng) > 0.f ? shape.exterior : shape.interior;
+    if (!shape.separates_media) return;
+    const bool inside = !(dot(direction, at.ng) > 0.f);
+    medium_ = inside ? shape.interior : shape.exterior;
+    piece_ = &tracer_.piece(at.shape, inside);
 }
 
 float VolumePath::relative_weight() const {

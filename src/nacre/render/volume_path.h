@@ -9,8 +9,6 @@
 
 namespace nacre {
 
-struct Walker;
-
 class VolumePath {
   public:
     VolumePath(const VolumePathTracer& tracer, const Ray& ray, Sampler& sampler,
@@ -52,19 +50,40 @@ class VolumePath {
     };
     struct WayToLight;
     Connection connection(const ShadowRay& shadow, const Medium* medium, Random& random);
-    // Called by the walk: proposes an exit towards a light at a collision.
+    // A collision at `p` of a path that came along `d`. The walk's own collisions since the path's
+    // weights were brought up to date are told apart; lanes are null in heterogeneous media.
+    struct Collision {
+        Point3f p;
+        Vec3f d;
+        const MediumLanes* lanes = nullptr;
+        std::uint32_t collisions = 0;
+        float length = 0.f;
+    };
+    // What a chord from it to the boundary carries, per lane: the path's weights at the collision,
+    // what the chord keeps of light, and the density of passing it.
+    struct Carried {
+        Spectral throughput, density, kept, passing;
+    };
+    Carried carried(const Collision& from, const Ray& chord, float length, Random& random);
     struct WalkSurroundings;
-    void guided_exit(const ExitGuide::Proposal& proposal, const Walker& walker,
-                     const MediumLanes& lanes, Random& random);
-    // The same below a rough boundary: proposes a direction, and draws a light where it arrives.
-    void guided_connection(const ExitGuide::Proposal& proposal, const Walker& walker,
-                           const MediumLanes& lanes, Random& random);
+    // Called at collisions: proposes an exit towards a light, and takes it if chance says so.
+    void guided_exit(const Collision& from, std::int32_t cell, Random& random);
+    // Where its direction leads to: out through a smooth boundary to what is met there, or to
+    // a rough one, where a light is drawn. `guided` is the density of proposing the chord.
+    void exit_smoothly(const Collision& from, const Ray& chord, float length,
+                       const SurfacePoint& at, float guided, Random& random);
+    void exit_roughly(const Collision& from, const Ray& chord, float length, const SurfacePoint& at,
+                      float guided, Random& random);
+    // The density of a proposal at the last collision in the direction that the walk took.
+    float guided_density() const;
     // With what density a proposal at the last collision would have led to the rough boundary
     // `at`, to which the walk came by itself.
     Spectral guided_arrival(const SurfacePoint& at, const Vec3f& wo) const;
     // Called when the path leaves through the boundary by itself: notes with what density a
     // proposal would have done so.
-    void expect_guided_exit(float transmittance);
+    void expect_guided_exit(const SurfacePoint& at, float transmittance);
+    // At a collision of a heterogeneous medium: what the walk does by itself in homogeneous ones.
+    void meet_lights_through_boundary();
     // Connect a vertex to lights that cannot be met, through one smooth boundary (light_beams.h).
     // `weight`: what the path carries there, lanes weighted. Ways longer than a reach drawn for the
     // collision are left out: the chance that a way is kept falls with its length as its light
@@ -80,7 +99,7 @@ class VolumePath {
                                             const Spectral& weight, const Reach& reach,
                                             Random& random);
     void connect_collision_by_chain(const Point3f& p, const Vec3f& d_in, const Spectral& weight,
-                                    Random& random);
+                                    const Reach& reach, Random& random);
     // What comes to the start of such a way, with what lies on it.
     Spectral arriving(const LightBeams::Way& way, const Point3f& origin, const Medium* medium,
                       Random& random);
@@ -96,6 +115,10 @@ class VolumePath {
     // What the path carries, as the roulette weighs it.
     float relative_weight() const;
     float mean_of(const Spectral& s) const { return mean(s, wavelengths_); }
+    // Of the lights that a collision of this piece is connected to.
+    const LightChooser& reachable() const {
+        return piece_->reachable ? *piece_->reachable : tracer_.lights_;
+    }
     void leave(const SurfacePoint& at, const Vec3f& direction);
 
     const VolumePathTracer& tracer_;
@@ -111,6 +134,7 @@ class VolumePath {
 
     Ray ray_;
     const Medium* medium_;
+    const VolumePathTracer::Piece* piece_;  // of the medium; of no meaning without one
     std::optional<Hit> hit_;
     Spectral result_{0.f}, throughput_{1.f}, density_{1.f};
     int depth_ = 0;
@@ -126,12 +150,12 @@ class VolumePath {
     Spectral other_density_{0.f};
     Point3f vertex_;  // where the present direction was chosen
     float vertex_pdf_ = 0.f;
+    const LightChooser* vertex_lights_ = nullptr;  // from which one was drawn there
 
     // Density of guided connections to lights at the present surface (guided_arrival).
     Spectral guided_{0.f};
 
-    // The last collision of a walk that reached a surface without another event, for the density of
-    // a guided exit.
+    // The last collision before a surface, without another event, for the density of a guided exit.
     struct LastCollision {
         bool valid = false;
         Point3f p;

@@ -71,12 +71,34 @@ void VolumePath::connect_collision_through_boundary(const Point3f& p, const Vec3
                    arriving(way, p, medium_, random);
 }
 
+void VolumePath::meet_lights_through_boundary() {
+    Random& random = sampler_.random();
+    const VolumePathTracer::MediumInfo& info = tracer_.info(medium_);
+    const bool chain =
+        info.chain_chance > 0.f && within_depth(2) && random.next() < info.chain_chance;
+    if (chain || !tracer_.beams_.empty()) {
+        const Spectral carried = throughput_ * density_ * Spectral(1.f / mean_of(density_));
+        if (!tracer_.beams_.empty())
+            connect_collision_through_boundary(ray_.o, ray_.d, carried, {}, random);
+        if (chain)
+            connect_collision_by_chain(ray_.o, ray_.d, carried * Spectral(1.f / info.chain_chance),
+                                       {}, random);
+    }
+    if (const DistanceGrid::Cell cell = piece_->grid.locate(ray_.o); cell.guide >= 0)
+        guided_exit({ray_.o, ray_.d}, cell.guide, random);
+}
+
 void VolumePath::connect_collision_by_chain(const Point3f& p, const Vec3f& d_in,
-                                            const Spectral& weight, Random& random) {
-    const auto chain = tracer_.chains_.draw(p, true, random, counts_);
+                                            const Spectral& weight, const Reach& reach,
+                                            Random& random) {
+    const auto chain =
+        tracer_.chains_.draw(p, tracer_.info(medium_).chain_ends_inside, random, counts_);
     if (!chain) return;
-    const Vec3f towards = normalize(chain->vertex[std::size_t(chain->vertices - 1)].at.p - p);
-    result_ += weight * Spectral(medium_->phase.eval(dot(d_in, towards))) *
+    const Vec3f to = chain->vertex[std::size_t(chain->vertices - 1)].at.p - p;
+    const float way = length(to);
+    if (way > reach.length) return;
+    result_ += weight *
+               Spectral(medium_->phase.eval(dot(d_in, normalize(to))) / reach.chance(way)) *
                arriving(*chain, p, medium_, random);
 }
 

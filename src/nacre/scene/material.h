@@ -35,6 +35,8 @@ class Material {
     /// The same of a rough dielectric boundary that is equally rough everywhere and without tint,
     /// else 0.
     virtual float rough_boundary_eta() const { return 0.f; }
+    /// The same however roughness and tint vary: of any boundary of facets that reflect or refract.
+    virtual float facet_eta() const { return 0.f; }
     /// Whether all of it follows Lambert's law, so that the direction of the viewer makes no
     /// difference but for the side.
     virtual bool is_lambertian() const { return false; }

@@ -62,6 +62,7 @@ class RoughDielectricMaterial final : public Material {
                           is(*roughness_.alpha_v, roughness_.alpha_v->max());
         return even && is(*reflectance_, 1.f) && is(*transmittance_, 1.f) ? eta_ : 0.f;
     }
+    float facet_eta() const override { return eta_; }
     bool is_spectral() const override {
         return reflectance_->is_spectral() || transmittance_->is_spectral();
     }
