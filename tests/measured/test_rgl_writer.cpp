@@ -190,7 +190,9 @@ TEST(RglWriter, AnisotropicSurfacesByTheirSymmetry) {
                    return 2. + 0.5 * (i.x + o.x) + 0.2 * (i.y + o.y);
                }}}) {
         const MadeSource source(c.value, false);
-        const auto file = written_and_read(source);
+        WriteOptions options;
+        options.incidences = 12;
+        const auto file = written_and_read(source, options);
         EXPECT_FALSE(file->info().isotropic);
         const std::vector<float>& phi = file->brdf().tables().incidence.slow();
         EXPECT_NEAR(phi.front(), -pi, 1e-6);
@@ -200,10 +202,10 @@ TEST(RglWriter, AnisotropicSurfacesByTheirSymmetry) {
         for (int i = 0; i < 1000; ++i) {
             const Vec3d wi = direction_above(random, 0.3), wo = direction_above(random, 0.3);
             const double f = c.value(0, wi, wo), error = test::value_at(*file, wi, wo)[0] / f - 1.;
-            ASSERT_NEAR(error, 0., 0.3) << c.parts;
+            ASSERT_NEAR(error, 0., 0.35) << c.parts;
             mean += std::abs(error) / 1000.;
         }
-        EXPECT_LT(mean, 0.015) << c.parts;
+        EXPECT_LT(mean, 0.025) << c.parts;
     }
 }
 

@@ -191,9 +191,12 @@ WrittenMeasured write_alta(const Measured& data, const WriteOptions& options) {
                        info.isotropic ? "ISOTROPIC_TV_TL_DPHI" : "SPHERICAL_TL_PL_TV_PV",
                        info.channels == 3 ? "RGB_COLOR" : "INV_STERADIAN");
     if (!info.description.empty()) text += "#SAMPLE " + one_line(info.description) + "\n";
-    const RowCounts counts = for_each_row(data, options, [&](const MeasuredRow& row) {
-        if (!row.known) return;
+    std::size_t unknown = 0;
+    for_each_row(data, options, [&](const MeasuredRow& row) {
         const AngleRow& a = row.angles;
+        if (a.theta_o > 0.5 * std::numbers::pi) return;
+        unknown += !row.known;
+        if (!row.known) return;
         text += info.isotropic
                     ? fmt::format("{:.9g} {:.9g} {:.9g}", a.theta_o, a.theta_i, a.phi_i - a.phi_o)
                     : fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", a.theta_i, a.phi_i, a.theta_o,
@@ -201,9 +204,9 @@ WrittenMeasured write_alta(const Measured& data, const WriteOptions& options) {
         for (const double v : row.value) text += fmt::format(" {:.9g}", v);
         text += '\n';
     });
-    if (counts.unknown > 0)
+    if (unknown > 0)
         written.lost.push_back(
-            fmt::format("the places of {} samples without a measurement", counts.unknown));
+            fmt::format("the places of {} samples without a measurement", unknown));
     return written;
 }
 

@@ -94,25 +94,29 @@ std::shared_ptr<const Measured> made_to_fit(std::shared_ptr<const Measured> data
                                             const MeasuredFormat& format,
                                             const ConvertOptions& options,
                                             std::vector<std::string>& lost) {
-    const MeasuredInfo& info = data->info();
+    const MeasuredInfo info = data->info();
     const bool through = info.transmission_front || info.transmission_back;
     if (!info.reflection_front && !(format.keeps.transmission && info.transmission_front))
-        throw InputError(fmt::format(
-            "{} holds light {}, and the data have none; --to {} keeps more", format.title,
-            format.keeps.transmission ? "from the front" : "reflected in front", "csv"));
+        throw InputError(
+            fmt::format("{} holds light {}, and the data have none{}", format.title,
+                        format.keeps.transmission ? "from the front" : "reflected in front",
+                        format.keeps.transmission ? "" : "; csv holds more"));
     if (through && !format.keeps.transmission)
         lost.emplace_back("light that goes through: the format holds reflection alone");
-    if (info.reflection_back && !format.keeps.transmission)
+    if (info.reflection_back)
         lost.emplace_back("light reflected behind: the format holds that in front alone");
-    if (!info.isotropic && !format.keeps.anisotropy) {
-        if (!options.turned_around)
-            throw InputError(
-                fmt::format("{} holds isotropic surfaces, and this one is anisotropic; --isotropic "
-                            "writes its mean over turns about the normal",
-                            format.title));
+    if (info.transmission_back && format.keeps.transmission)
+        lost.emplace_back(
+            "light that goes through from behind: the format holds that from the front");
+    if (!info.isotropic && !format.keeps.anisotropy && !options.turned_around)
+        throw InputError(
+            fmt::format("{} holds isotropic surfaces, and this one is anisotropic; --isotropic "
+                        "writes its mean over turns about the normal",
+                        format.title));
+    if (!info.isotropic && options.turned_around) {
         lost.emplace_back("anisotropy: the mean over turns about the normal is written");
+        data = turned_around(std::move(data));
     }
-    if (options.turned_around) data = turned_around(std::move(data));
     const bool spectral = data->info().wavelengths.size() > 1;
     if (spectral && (options.colour || !format.keeps.wavelengths)) {
         lost.push_back(fmt::format("{} wavelengths: red, green and blue under D65 are written",

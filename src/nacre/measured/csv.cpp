@@ -69,7 +69,7 @@ WrittenMeasured write_csv(const Measured& data, const WriteOptions& options) {
     else
         text += info.channels == 3 ? ",r,g,b" : ",value";
     text += '\n';
-    const RowCounts counts = for_each_row(data, options, [&](const MeasuredRow& row) {
+    for_each_row(data, options, [&](const MeasuredRow& row) {
         const AngleRow& a = row.angles;
         constexpr double degree = std::numbers::pi / 180.;
         text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", a.theta_i / degree, a.phi_i / degree,
@@ -77,11 +77,6 @@ WrittenMeasured write_csv(const Measured& data, const WriteOptions& options) {
         for (const double v : row.value) text += row.known ? fmt::format(",{:.9g}", v) : ",nan";
         text += '\n';
     });
-    if (counts.from_behind > 0)
-        written.lost.push_back(
-            fmt::format("{} samples with light from behind: the format has only "
-                        "light from the front",
-                        counts.from_behind));
     return written;
 }
 

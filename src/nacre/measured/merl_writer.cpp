@@ -49,8 +49,9 @@ WrittenMeasured write_merl(const Measured& data, const WriteOptions&) {
                 bool negative = false;
                 for (std::size_t c = 0; c < planes; ++c) {
                     if (known && back) {
-                        here.sum += std::abs(one[c]);
-                        here.exchanged += std::abs(one[c] - other[c]);
+                        const double seen = wi.z * wo.z;
+                        here.sum += seen * std::abs(one[c]);
+                        here.exchanged += seen * std::abs(one[c] - other[c]);
                     }
                     const double f = known && back ? 0.5 * (one[c] + other[c])
                                      : known       ? one[c]

@@ -10,27 +10,24 @@ namespace {
 
 constexpr double pi = std::numbers::pi, degree = pi / 180.;
 constexpr std::size_t most_samples = 100000;
+/// The last angle of a grid, degrees: at the horizon itself BRDFs need not have a value.
+constexpr double near_horizon = 89.;
 
 double theta_of(const Vec3d& w) { return std::atan2(std::hypot(w.x, w.y), w.z); }
 double phi_of(const Vec3d& w) { return w.x == 0. && w.y == 0. ? 0. : std::atan2(w.y, w.x); }
 
-void own_samples(const Measured& data, RowCounts& counts,
-                 const std::function<void(const MeasuredRow&)>& visit) {
+void own_samples(const Measured& data, const std::function<void(const MeasuredRow&)>& visit) {
     const MeasuredInfo& info = data.info();
     data.for_each_sample([&](const MeasuredSample& s) {
         const bool known = s.state != SampleState::missing;
         if (!known && !(s.wi.z > 0. && (s.wo.z > 0. || info.transmission_front))) return;
-        if (!(s.wi.z > 0.)) {
-            ++counts.from_behind;
-            return;
-        }
+        if (!(s.wi.z > 0.)) return;
         AngleRow a{theta_of(s.wi), phi_of(s.wi), theta_of(s.wo), phi_of(s.wo)};
         if (info.isotropic) {
             // What is turned by a whole circle is the same row.
             a.phi_o = std::remainder(a.phi_o - a.phi_i, 2. * pi);
             a.phi_i = 0.;
         }
-        counts.unknown += !known;
         visit({a, s.value, known});
     });
 }
@@ -43,10 +40,10 @@ std::vector<double> steps(double length, double step, bool with_end) {
     return values;
 }
 
-void grid(const Measured& data, double step, RowCounts& counts,
-          const std::function<void(const MeasuredRow&)>& visit) {
+void grid(const Measured& data, double step, const std::function<void(const MeasuredRow&)>& visit) {
     const MeasuredInfo& info = data.info();
-    const std::vector<double> theta = steps(90., step, false);
+    std::vector<double> theta = steps(90., step, false);
+    if (theta.back() < near_horizon) theta.push_back(near_horizon);
     const double around = std::max(step, 15.);
     const std::vector<double> phi_i =
         info.isotropic ? std::vector<double>{0.} : steps(360., around, false);
@@ -63,22 +60,21 @@ void grid(const Measured& data, double step, RowCounts& counts,
                     const AngleRow a{ti * degree, pi_ * degree, to * degree, po * degree};
                     const bool known = data.eval(polar_direction(a.theta_i, a.phi_i),
                                                  polar_direction(a.theta_o, a.phi_o), value);
-                    counts.unknown += !known;
                     visit({a, value, known});
                 }
 }
 
 }  // namespace
 
-RowCounts for_each_row(const Measured& data, const WriteOptions& options,
-                       const std::function<void(const MeasuredRow&)>& visit) {
-    RowCounts counts;
+void for_each_row(const Measured& data, const WriteOptions& options,
+                  const std::function<void(const MeasuredRow&)>& visit) {
     const std::size_t samples = data.info().samples;
-    if (options.samples && samples > 0 && samples <= most_samples)
-        own_samples(data, counts, visit);
+    // Nodes of a warp lie well for the warp, and badly for interpolation between the nearest.
+    const bool own = data.info().format != "rgl" && samples > 0 && samples <= most_samples;
+    if (options.samples && own)
+        own_samples(data, visit);
     else
-        grid(data, options.step, counts, visit);
-    return counts;
+        grid(data, options.step, visit);
 }
 
 std::string one_line(std::string text) {
