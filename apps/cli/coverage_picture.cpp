@@ -37,22 +37,36 @@ Disc disc_of(const Measured& data, bool front, double incidence, bool above) {
     Vec3d wi = polar_direction(incidence, 0.);
     if (!front) wi.z = -wi.z;
     std::vector<double> out(std::size_t(data.info().channels));
+    constexpr double step = 0.5 * pi / rings, turn = 2. * pi / sectors;
     double all = 0.;
-    for (int r = 0; r < rings; ++r)
-        for (int s = 0; s < sectors; ++s) {
-            const double step = 0.5 * pi / rings, turn = 2. * pi / sectors;
+    for (int s = 0; s < sectors; ++s) {
+        // Patches that follow one another outwards and are alike are one.
+        std::string* run = nullptr;
+        int begin = 0;
+        const auto finish = [&](int end) {
+            if (run)
+                *run += fmt::format("M{}L{}L{}L{}Z", point(begin * step, s * turn),
+                                    point(end * step, s * turn), point(end * step, (s + 1) * turn),
+                                    point(begin * step, (s + 1) * turn));
+        };
+        for (int r = 0; r < rings; ++r) {
             Vec3d wo = polar_direction((r + 0.5) * step, (s + 0.5) * turn);
             if (!above) wo.z = -wo.z;
             const double weight = std::sin((2. * r + 1.) * step);
             all += weight;
-            if (!data.eval(wi, wo, out)) continue;
-            disc.share += weight;
-            std::string& path =
-                *std::min_element(out.begin(), out.end()) < 0. ? disc.negative : disc.known;
-            path += fmt::format(
-                "M{}L{}L{}L{}Z", point(r * step, s * turn), point((r + 1) * step, s * turn),
-                point((r + 1) * step, (s + 1) * turn), point(r * step, (s + 1) * turn));
+            std::string* path = nullptr;
+            if (data.eval(wi, wo, out)) {
+                disc.share += weight;
+                path =
+                    *std::min_element(out.begin(), out.end()) < 0. ? &disc.negative : &disc.known;
+            }
+            if (path == run) continue;
+            finish(r);
+            run = path;
+            begin = r;
         }
+        finish(rings);
+    }
     disc.share /= all;
     return disc;
 }

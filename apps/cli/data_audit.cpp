@@ -29,14 +29,20 @@ struct DataAuditArguments {
 double rounded(double v) { return std::stod(fmt::format("{:.6g}", v)); }
 ordered_json rounded(const Vec3d& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
-ordered_json pairs_as_json(const std::vector<AuditedPair>& pairs, const char* other) {
+/// `all` is for programs.
+ordered_json pairs_as_json(const std::vector<AuditedPair>& pairs, const char* other, bool all) {
     ordered_json list = ordered_json::array();
-    for (const AuditedPair& p : pairs)
-        list.push_back({{"where", place_in_words(p)},
-                        {"wi", rounded(p.wi)},
-                        {"wo", rounded(p.wo)},
-                        {"value", rounded(p.value)},
-                        {other, rounded(p.other)}});
+    for (const AuditedPair& p : pairs) {
+        const std::string where = place_in_words(p);
+        if (all)
+            list.push_back({{"where", where},
+                            {"wi", rounded(p.wi)},
+                            {"wo", rounded(p.wo)},
+                            {"value", rounded(p.value)},
+                            {other, rounded(p.other)}});
+        else
+            list.push_back(fmt::format("{:.3g}, {} {:.3g}, at {}", p.value, other, p.other, where));
+    }
     return list;
 }
 
@@ -68,10 +74,10 @@ ordered_json findings(const Measured& data, const Audit& a, bool all) {
                            {"percentile95", rounded(r.percentile95)},
                            {"largest", rounded(r.largest)},
                            {"apart", r.apart},
-                           {"worst", pairs_as_json(r.worst, "exchanged")}};
+                           {"worst", pairs_as_json(r.worst, "exchanged", all)}};
     json["outliers"] = {{"looked_at", a.outliers.looked_at},
                         {"count", a.outliers.count},
-                        {"worst", pairs_as_json(a.outliers.worst, "neighbours")}};
+                        {"worst", pairs_as_json(a.outliers.worst, "neighbours", all)}};
     ordered_json albedo = ordered_json::array();
     if (all)
         for (const AuditAlbedo& x : a.albedo) albedo.push_back(albedo_as_json(x));
@@ -133,7 +139,8 @@ Table albedo_plot(const Measured& data, const Audit& a, const std::string& title
     return t;
 }
 
-/// Means over the channels in the plane of incidence, light from the left.
+/// Means over the channels in the plane of incidence, light from the left, at exits within 80 degrees
+/// of the normal: of what is stored with the cosine, those beyond would dwarf all others.
 Table lobes_plot(const Measured& data, const std::string& title) {
     const MeasuredInfo& info = data.info();
     Table t{title,
@@ -157,7 +164,8 @@ Table lobes_plot(const Measured& data, const std::string& title) {
             Vec3d wi = in_plane(-theta * degree);
             if (!front) wi.z = -wi.z;
             double sum = std::nan("");
-            if (data.eval(wi, in_plane(angle * degree), out)) {
+            const bool grazing = std::abs(std::abs(angle) - 90.) < 10.;
+            if (!grazing && data.eval(wi, in_plane(angle * degree), out)) {
                 sum = 0.;
                 for (const double v : out) sum += std::max(v, 0.) / double(out.size());
             }

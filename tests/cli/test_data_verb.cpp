@@ -199,4 +199,36 @@ TEST_F(DataVerb, ConvertRefusesAndWritesNothing) {
     EXPECT_EQ(read(folder_ / "paint.txt").substr(0, 12), "# blue paint");
 }
 
+TEST_F(DataVerb, AuditSaysWhatCanBeTrusted) {
+    std::ofstream table(folder_ / "wall.csv");
+    table << "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
+    for (int i = 0; i <= 80; i += 10)
+        for (int o = 0; o <= 80; o += 10)
+            for (int p = 0; p <= 180; p += 30)
+                table << fmt::format("{},0,{},{},{},0.05,0.1\n", i, o, p,
+                                     i == 30 && o == 20 && p == 60 ? 0.9 : 0.1);
+    table.close();
+    const std::string text = nacre("data audit wall.csv").out;
+    for (const char* line :
+         {"format: CSV\n", "  mean: 0.0838", "doubtful:\n", "trusted:\n",
+          "  - 1 of 567 samples lie far from their neighbours, by error or because a highlight is "
+          "narrower than the samples are apart; the farthest, 0.35 among 0.0833 sr^-1, at theta_i "
+          "30.0, theta_o 20.0, phi 60.0 degrees\n",
+          "  - no value is negative\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << text;
+    const auto r = nacre("data audit wall.csv --json -o audit");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto json = nlohmann::json::parse(r.out);
+    EXPECT_EQ(json["outliers"]["count"], 1);
+    EXPECT_EQ(json["albedo"].size(), 18u);
+    EXPECT_NEAR(json["albedo"][0]["reflected"][1].get<double>(), 3.14159265 * 0.05 * 0.9924, 1e-3);
+    EXPECT_EQ(json, nlohmann::json::parse(read(folder_ / "audit/audit.json")));
+    for (const char* picture : {"coverage.svg", "albedo.svg", "lobes.svg"})
+        EXPECT_NE(read(folder_ / "audit" / picture).find("</svg>"), std::string::npos) << picture;
+    // Exits are known up to 85 degrees.
+    EXPECT_NE(read(folder_ / "audit/coverage.svg").find(">99 % known<"), std::string::npos);
+    EXPECT_EQ(nacre("data audit page.bsdf").code, 2);
+    EXPECT_EQ(nacre("data audit wall.csv -o wall.csv").code, 2);
+}
+
 }  // namespace nacre

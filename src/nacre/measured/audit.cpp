@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "nacre/math/random.h"
+#include "nacre/math/sobol.h"
 #include "nacre/math/warp.h"
 #include "nacre/measured/audit_verdict.h"
 #include "nacre/measured/number_text.h"
@@ -138,29 +139,30 @@ AuditReciprocity reciprocity_of(const Measured& data, const std::vector<Sample>&
 AuditAlbedo albedo_from(const Measured& data, const ChannelColours& colours, const Vec3d& wi) {
     AuditAlbedo a;
     a.front = wi.z > 0.;
-    constexpr int nodes = 128;
+    constexpr std::uint32_t points = 1u << 14;
     const std::size_t n = std::size_t(data.info().channels);
     const Vec3d up{wi.x, wi.y, std::abs(wi.z)};
     const double phi_i = wi.x == 0. && wi.y == 0. ? 0. : std::atan2(wi.y, wi.x);
     std::vector<double> out(n), sums[2] = {std::vector<double>(n), std::vector<double>(n)};
     double known[2] = {}, all = 0.;
-    for (int y = 0; y < nodes; ++y)
-        for (int x = 0; x < nodes; ++x) {
-            const double u = (x + 0.5) / nodes, theta = 0.5 * pi * u * u;
-            const Vec3d h = polar_direction(theta, phi_i + 2. * pi * (y + 0.5) / nodes);
-            const double up_h = dot(up, h);
-            const Vec3d wo = h * (2. * up_h) - up;
-            if (!(wo.z > 0. && up_h > 0.)) continue;
-            const double weight =
-                wo.z * 4. * up_h * 2. * pi * pi * u * std::sin(theta) / (nodes * nodes);
-            all += weight;
-            for (int through = 0; through < 2; ++through) {
-                const bool front = a.front != bool(through);
-                if (!data.eval(wi, {wo.x, wo.y, front ? wo.z : -wo.z}, out)) continue;
-                known[through] += weight;
-                for (std::size_t c = 0; c < n; ++c) sums[through][c] += weight * out[c];
-            }
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const double u = sobol_owen(i, 0, 1), theta = 0.5 * pi * u * u;
+        const Vec3d h = polar_direction(theta, phi_i + 2. * pi * double(sobol_owen(i, 1, 1)));
+        const double up_h = dot(up, h);
+        const Vec3d wo = h * (2. * up_h) - up;
+        if (!(wo.z > 0. && up_h > 0.)) continue;
+        const double weight = wo.z * 4. * up_h * 2. * pi * pi * u * std::sin(theta) / points;
+        all += weight;
+        for (int through = 0; through < 2; ++through) {
+            const bool front = a.front != bool(through);
+            if (!data.eval(wi, {wo.x, wo.y, front ? wo.z : -wo.z}, out)) continue;
+            known[through] += weight;
+            for (std::size_t c = 0; c < n; ++c) sums[through][c] += weight * out[c];
         }
+    }
+    // As parts of all points: then what is even is exact.
+    for (std::vector<double>& sum : sums)
+        for (double& v : sum) v *= pi / all;
     a.known_reflected = known[0] / all;
     a.known_transmitted = known[1] / all;
     a.reflected = colours(sums[0]);

@@ -23,8 +23,8 @@ void judge_values(const MeasuredInfo& info, Audit& a) {
     if (a.outliers.count > 0) {
         const AuditedPair& p = a.outliers.worst.front();
         a.doubtful.push_back(fmt::format(
-            "{} of {} samples lie far from their neighbours; the farthest, {:.3g} among {:.3g} "
-            "sr^-1, at {}",
+            "{} of {} samples lie far from their neighbours, by error or because a highlight is "
+            "narrower than the samples are apart; the farthest, {:.3g} among {:.3g} sr^-1, at {}",
             a.outliers.count, a.outliers.looked_at, p.value, p.other, place_in_words(p)));
     } else if (a.outliers.looked_at > 0) {
         a.trusted.push_back(fmt::format("no sample lies far from its neighbours ({} looked at)",
@@ -37,11 +37,16 @@ void judge_reciprocity(Audit& a) {
     if (r.pairs == 0) return;
     if (r.apart > 0) {
         const AuditedPair& p = r.worst.front();
-        a.doubtful.push_back(fmt::format(
-            "not reciprocal: {:.2g} % in the mean when light and viewer are exchanged, more than "
-            "{:.0f} % at {} of {} pairs; the most, {:.3g} against {:.3g} sr^-1, at {}",
-            100. * r.mean, 100. * AuditReciprocity::allowed, r.apart, r.pairs, p.value, p.other,
-            place_in_words(p)));
+        a.doubtful.push_back(
+            fmt::format("{}: {:.2g} % in the mean when light and viewer are exchanged, more than "
+                        "{:.0f} % at {} "
+                        "of {} pairs; the most, {:.3g} against {:.3g} sr^-1, at {}",
+                        r.mean > 0.05 ? "not reciprocal" : "reciprocal in the mean alone",
+                        100. * r.mean, 100. * AuditReciprocity::allowed, r.apart, r.pairs, p.value,
+                        p.other, place_in_words(p)));
+    } else if (r.largest == 0.) {
+        a.trusted.emplace_back(
+            "reciprocal: exchanged light and viewer have one value in these coordinates");
     } else {
         a.trusted.push_back(
             fmt::format("reciprocal: {:.2g} % in the mean when light and viewer are exchanged, "
