@@ -10,6 +10,8 @@ struct Subverb {
     Action action;
 };
 
+Subverb set_up_data_audit(CLI::App& app);
+Subverb set_up_data_convert(CLI::App& app);
 Subverb set_up_data_eval(CLI::App& app);
 Subverb set_up_data_info(CLI::App& app);
 

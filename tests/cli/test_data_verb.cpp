@@ -56,7 +56,7 @@ TEST_F(DataVerb, RefusesWhatIsNoData) {
         "file itself\n";
     const std::pair<const char*, std::string> cases[] = {
         {"data",
-         "nacre: say what to do with the data: nacre data info FILE, nacre data eval FILE\n"},
+         "nacre: say what to do with the data: nacre data info FILE, audit, convert, eval\n"},
         {"data info", "nacre: file is required; see 'nacre help data'\n"},
         {"data info page.bsdf", page},
         {"info page.bsdf", page},
@@ -136,6 +136,99 @@ TEST_F(DataVerb, EvalAsksAtDirections) {
         EXPECT_EQ(r.err, message);
         EXPECT_EQ(r.code, 2) << arguments;
     }
+}
+
+TEST_F(DataVerb, ConvertWritesOtherFormats) {
+    const auto r = nacre("data convert 'lambert reflectance=0.6,0.3,0.1' -o wall.bsdf --json");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto json = nlohmann::json::parse(r.out);
+    EXPECT_EQ(json["format"], "rgl");
+    EXPECT_EQ(json["bytes"], std::filesystem::file_size(folder_ / "wall.bsdf"));
+    EXPECT_EQ(json["lost"], nlohmann::json::array());
+    ASSERT_EQ(json["errors"].size(), 3u);
+    EXPECT_LT(json["errors"][0]["mean"], 0.01);
+    EXPECT_EQ(nlohmann::json::parse(nacre("data info wall.bsdf --json").out)["format"], "RGL");
+
+    // By --to, whatever the name ends in; wavelengths of a model and of a file.
+    EXPECT_EQ(nacre("data convert lambert --to csv -o wall.txt --wavelengths 400..700/100").code,
+              0);
+    EXPECT_NE(read(folder_ / "wall.txt").find("theta_i,phi_i,theta_o,phi_o,400,500,600,700\n"),
+              std::string::npos);
+    const auto paint = nacre("data convert paint.txt -o paint.csv --rgb");
+    EXPECT_NE(paint.out.find("lost: 2 wavelengths: red, green and blue under D65 are written\n"),
+              std::string::npos)
+        << paint.out;
+    EXPECT_NE(read(folder_ / "paint.csv").find("# blue paint\ntheta_i,phi_i,theta_o,phi_o,r,g,b\n"),
+              std::string::npos);
+    const auto mirror = nacre("data convert he_torrance -o he.csv");
+    EXPECT_NE(mirror.out.find("lost: what the model mirrors without blur"), std::string::npos)
+        << mirror.out << mirror.err;
+}
+
+TEST_F(DataVerb, ConvertRefusesAndWritesNothing) {
+    const std::pair<const char*, std::string> cases[] = {
+        {"lambert", "nacre: say where to: -o FILE\n"},
+        {"lambert -o x.abc",
+         "nacre: x.abc: the ending says no format that can be written (.binary, .bsdf, .alta, "
+         ".csv); say --to merl, rgl, alta, csv\n"},
+        {"lambert -o x.xml --to klems",
+         "nacre: --to klems: Klems XML cannot be written; known are merl, rgl, alta, csv\n"},
+        {"lambert -o x.csv --to cvs",
+         "nacre: unknown format of measured reflectance 'cvs'; did you mean 'csv'?\n"},
+        {"paint.txt --to csv -o paint.txt",
+         "nacre: paint.txt: is read as well: it would be overwritten; name another output by -o\n"},
+        {"paint.txt -o x.csv --wavelengths 400,500",
+         "nacre: --wavelengths is for models; paint.txt has wavelengths of its own\n"},
+        {"lambert -o x.csv --wavelengths 400..700",
+         "nacre: --wavelengths '400..700': write 400,500,600, or 400..700/10 for steps of 10 nm\n"},
+        {"lambert -o x.csv --step 40", "nacre: --step: '40' is not a number from 1 to 15\n"},
+        {"'ward alpha_u=0.1 alpha_v=0.4' -o x.binary",
+         "nacre: MERL holds isotropic surfaces, and this one is anisotropic; --isotropic writes "
+         "its "
+         "mean over turns about the normal\n"},
+        {"none.bsdf -o x.csv", "nacre: none.bsdf: cannot be read; check the name\n"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        const test::Outcome r = nacre(std::string("data convert ") + arguments);
+        EXPECT_EQ(r.code, 2) << arguments;
+        EXPECT_EQ(r.err, message) << arguments;
+        EXPECT_EQ(r.out, "") << arguments;
+        for (const char* file : {"x.abc", "x.xml", "x.csv", "x.binary"})
+            EXPECT_FALSE(std::filesystem::exists(folder_ / file)) << arguments;
+    }
+    EXPECT_EQ(read(folder_ / "paint.txt").substr(0, 12), "# blue paint");
+}
+
+TEST_F(DataVerb, AuditSaysWhatCanBeTrusted) {
+    std::ofstream table(folder_ / "wall.csv");
+    table << "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
+    for (int i = 0; i <= 80; i += 10)
+        for (int o = 0; o <= 80; o += 10)
+            for (int p = 0; p <= 180; p += 30)
+                table << fmt::format("{},0,{},{},{},0.05,0.1\n", i, o, p,
+                                     i == 30 && o == 20 && p == 60 ? 0.9 : 0.1);
+    table.close();
+    const std::string text = nacre("data audit wall.csv").out;
+    for (const char* line :
+         {"format: CSV\n", "  mean: 0.0838", "doubtful:\n", "trusted:\n",
+          "  - 1 of 567 samples lie far from their neighbours, by error or because a highlight is "
+          "narrower than the samples are apart; the farthest, 0.35 among 0.0833 sr^-1, at theta_i "
+          "30.0, theta_o 20.0, phi 60.0 degrees\n",
+          "  - no value is negative\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << text;
+    const auto r = nacre("data audit wall.csv --json -o audit");
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto json = nlohmann::json::parse(r.out);
+    EXPECT_EQ(json["outliers"]["count"], 1);
+    EXPECT_EQ(json["albedo"].size(), 18u);
+    EXPECT_NEAR(json["albedo"][0]["reflected"][1].get<double>(), 3.14159265 * 0.05 * 0.9924, 1e-3);
+    EXPECT_EQ(json, nlohmann::json::parse(read(folder_ / "audit/audit.json")));
+    for (const char* picture : {"coverage.svg", "albedo.svg", "lobes.svg"})
+        EXPECT_NE(read(folder_ / "audit" / picture).find("</svg>"), std::string::npos) << picture;
+    // Exits are known up to 85 degrees.
+    EXPECT_NE(read(folder_ / "audit/coverage.svg").find(">99 % known<"), std::string::npos);
+    EXPECT_EQ(nacre("data audit page.bsdf").code, 2);
+    EXPECT_EQ(nacre("data audit wall.csv -o wall.csv").code, 2);
 }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 
 #include "nacre/measured/alta_coordinates.h"
 #include "nacre/measured/number_text.h"
+#include "nacre/measured/rows.h"
 #include "nacre/measured/scattered.h"
 #include "nacre/spectrum/color.h"
 #include "nacre/text/lines.h"
@@ -180,6 +181,35 @@ bool is_alta(const FileStart& start) {
     return false;
 }
 
+/// Samples without a measurement are left out: scattered samples need no place for them.
+WrittenMeasured write_alta(const Measured& data, const WriteOptions& options) {
+    const MeasuredInfo& info = data.info();
+    WrittenMeasured written;
+    std::string& text = written.bytes;
+    text = fmt::format("#DIM {} {}\n#PARAM_IN {}\n#PARAM_OUT {}\n", info.isotropic ? 3 : 4,
+                       info.channels,
+                       info.isotropic ? "ISOTROPIC_TV_TL_DPHI" : "SPHERICAL_TL_PL_TV_PV",
+                       info.channels == 3 ? "RGB_COLOR" : "INV_STERADIAN");
+    if (!info.description.empty()) text += "#SAMPLE " + one_line(info.description) + "\n";
+    std::size_t unknown = 0;
+    for_each_row(data, options, [&](const MeasuredRow& row) {
+        const AngleRow& a = row.angles;
+        if (a.theta_o > 0.5 * std::numbers::pi) return;
+        unknown += !row.known;
+        if (!row.known) return;
+        text += info.isotropic
+                    ? fmt::format("{:.9g} {:.9g} {:.9g}", a.theta_o, a.theta_i, a.phi_i - a.phi_o)
+                    : fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", a.theta_i, a.phi_i, a.theta_o,
+                                  a.phi_o);
+        for (const double v : row.value) text += fmt::format(" {:.9g}", v);
+        text += '\n';
+    });
+    if (unknown > 0)
+        written.lost.push_back(
+            fmt::format("the places of {} samples without a measurement", unknown));
+    return written;
+}
+
 }  // namespace
 
 const MeasuredFormat& alta_format() {
@@ -191,6 +221,8 @@ const MeasuredFormat& alta_format() {
         .memory = 40.,
         .recognise = is_alta,
         .read = read_alta,
+        .keeps = {.grey = true, .anisotropy = true},
+        .write = write_alta,
     };
     return format;
 }

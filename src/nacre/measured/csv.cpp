@@ -3,8 +3,11 @@
 // (or one value, or wavelengths in nm, in place of r,g,b), then a pair of directions a line, in
 // degrees, and the BSDF in sr^-1, without cosine. "nan" says that there is no measurement. theta_o
 // above 90 degrees is light that goes through.
+#include <numbers>
+
 #include "nacre/measured/angle_table.h"
 #include "nacre/measured/number_text.h"
+#include "nacre/measured/rows.h"
 
 namespace nacre {
 namespace {
@@ -55,6 +58,28 @@ std::unique_ptr<Measured> read_csv(const MeasuredSource& source) {
     return read_angle_rows(source, lines, std::move(table));
 }
 
+WrittenMeasured write_csv(const Measured& data, const WriteOptions& options) {
+    const MeasuredInfo& info = data.info();
+    WrittenMeasured written;
+    std::string& text = written.bytes;
+    if (!info.description.empty()) text += "# " + one_line(info.description) + "\n";
+    text += "theta_i,phi_i,theta_o,phi_o";
+    if (info.wavelengths.size() > 1)
+        for (const double nm : info.wavelengths) text += fmt::format(",{:.9g}", nm);
+    else
+        text += info.channels == 3 ? ",r,g,b" : ",value";
+    text += '\n';
+    for_each_row(data, options, [&](const MeasuredRow& row) {
+        const AngleRow& a = row.angles;
+        constexpr double degree = std::numbers::pi / 180.;
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", a.theta_i / degree, a.phi_i / degree,
+                            a.theta_o / degree, a.phi_o / degree);
+        for (const double v : row.value) text += row.known ? fmt::format(",{:.9g}", v) : ",nan";
+        text += '\n';
+    });
+    return written;
+}
+
 }  // namespace
 
 const MeasuredFormat& csv_format() {
@@ -66,6 +91,8 @@ const MeasuredFormat& csv_format() {
         .memory = 24.,
         .recognise = is_csv,
         .read = read_csv,
+        .keeps = {.wavelengths = true, .grey = true, .anisotropy = true, .transmission = true},
+        .write = write_csv,
     };
     return format;
 }

@@ -27,6 +27,27 @@ struct MeasuredSource {
     [[noreturn]] void fail(std::size_t line, std::string_view what) const;
 };
 
+/// How finely what has no samples of a format's own is sampled for it; each format uses some.
+struct WriteOptions {
+    int resolution = 32;  ///< rgl: nodes along a side of the warped square
+    int incidences = 24;  ///< rgl: of theta_i
+    int azimuths = 24;    ///< rgl: steps of phi_i around the circle, if the surface is anisotropic
+    double step = 5.;     ///< text: degrees between directions
+    bool samples = true;  ///< text: the data's own directions, if they have any
+};
+
+struct WrittenMeasured {
+    std::string bytes;
+    std::vector<std::string>
+        lost;  ///< what the file does not say that its source does, a sentence each
+};
+
+/// What files of a format can hold.
+struct FormatKeeps {
+    bool wavelengths = false, grey = false;  ///< besides red, green and blue
+    bool anisotropy = false, transmission = false;
+};
+
 struct MeasuredFormat {
     std::string_view name;    ///< "merl"
     std::string_view title;   ///< "MERL"
@@ -36,6 +57,10 @@ struct MeasuredFormat {
     bool (*recognise)(const FileStart& start) = nullptr;
     /// Throws InputError for whatever is wrong with the file.
     std::unique_ptr<Measured> (*read)(const MeasuredSource& source) = nullptr;
+    FormatKeeps keeps = {};
+    /// The file that holds this; null if the format cannot be written. Asked only for what the
+    /// format keeps (convert.h turns the rest into it or refuses it).
+    WrittenMeasured (*write)(const Measured& data, const WriteOptions& options) = nullptr;
 };
 
 const Catalogue<MeasuredFormat>& measured_formats();

@@ -13,14 +13,6 @@ constexpr double pi = std::numbers::pi;
 constexpr int nh = MerlBrdf::theta_h_count, nd = MerlBrdf::theta_d_count,
               np = MerlBrdf::phi_d_count;
 
-HalfAngle node_angles(int h, int d, int p) {
-    const double x = double(h) / nh;
-    return {.theta_h = 0.5 * pi * x * x,
-            .phi_h = 0.,
-            .theta_d = 0.5 * pi * d / nd,
-            .phi_d = pi * p / np};
-}
-
 /// 90, 90, 180 in front, whatever follows; or three other counts that the size of the file agrees
 /// with, which the reader refuses by name.
 bool is_merl(const FileStart& start) {
@@ -38,6 +30,14 @@ bool is_merl(const FileStart& start) {
 
 }  // namespace
 
+HalfAngle merl_node_angles(int h, int d, int p) {
+    const double x = double(h) / nh;
+    return {.theta_h = 0.5 * pi * x * x,
+            .phi_h = 0.,
+            .theta_d = 0.5 * pi * d / nd,
+            .phi_d = pi * p / np};
+}
+
 MerlMeasured::MerlMeasured(MerlBrdf brdf) : brdf_(std::move(brdf)) {
     info_.format = "merl";
     info_.parameterisation =
@@ -51,7 +51,7 @@ MerlMeasured::MerlMeasured(MerlBrdf brdf) : brdf_(std::move(brdf)) {
         for (int d = 0; d < nd; ++d)
             for (int p = 0; p < np; ++p) {
                 if (!brdf_.node(h, d, p)) continue;
-                const HalfAngle a = node_angles(h, d, p);
+                const HalfAngle a = merl_node_angles(h, d, p);
                 const double both = std::cos(a.theta_h) * std::cos(a.theta_d);
                 const double apart = std::sin(a.theta_h) * std::sin(a.theta_d) * std::cos(a.phi_d);
                 if (both - apart <= 0. || both + apart <= 0.) continue;
@@ -73,7 +73,7 @@ void MerlMeasured::for_each_sample(const std::function<void(const MeasuredSample
     for (int h = 0; h < nh; ++h)
         for (int d = 0; d < nd; ++d)
             for (int p = 0; p < np; ++p) {
-                const DirectionPair pair = from_half_angle(node_angles(h, d, p));
+                const DirectionPair pair = from_half_angle(merl_node_angles(h, d, p));
                 const auto value = brdf_.node(h, d, p);
                 const Vec3d v = value.value_or(Vec3d(-1., -1., -1.));
                 const double channels[3] = {v.x, v.y, v.z};
@@ -95,6 +95,7 @@ const MeasuredFormat& merl_format() {
         .read = [](const MeasuredSource& source) -> std::unique_ptr<Measured> {
             return std::make_unique<MerlMeasured>(parse_merl(source.bytes, source.path));
         },
+        .write = write_merl,
     };
     return format;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // A BRDF of MERL as any measured file.
-#include "nacre/measured/measured.h"
+#include "nacre/measured/formats.h"
+#include "nacre/measured/half_angle.h"
 #include "nacre/measured/merl.h"
 
 namespace nacre {
@@ -20,5 +21,11 @@ class MerlMeasured final : public Measured {
   private:
     MerlBrdf brdf_;
 };
+
+/// Where a node stands, phi_h = 0; either direction may lie below the horizon.
+HalfAngle merl_node_angles(int theta_h, int theta_d, int phi_d);
+
+/// A .binary file (merl_writer.cpp) of what is isotropic and has colours.
+WrittenMeasured write_merl(const Measured& data, const WriteOptions& options);
 
 }  // namespace nacre

@@ -242,6 +242,8 @@ const MeasuredFormat& rgl_format() {
         .read = [](const MeasuredSource& source) -> std::unique_ptr<Measured> {
             return parse_rgl(source);
         },
+        .keeps = {.wavelengths = true, .anisotropy = true},
+        .write = write_rgl,
     };
     return format;
 }

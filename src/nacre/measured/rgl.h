@@ -24,4 +24,7 @@ class RglMeasured final : public Measured {
 /// Throws InputError for whatever is wrong with the file.
 std::unique_ptr<RglMeasured> parse_rgl(const MeasuredSource& source);
 
+/// A .bsdf file (rgl_writer.cpp) of what reflects in front, with colours or wavelengths.
+WrittenMeasured write_rgl(const Measured& data, const WriteOptions& options);
+
 }  // namespace nacre

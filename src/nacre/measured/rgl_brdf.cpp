@@ -146,8 +146,12 @@ std::optional<float> RglBrdf::eval_pdf(const Vec3f& given, const Vec3f& other,
 }
 
 RglBrdf::Node RglBrdf::node(const Vec3f& given, std::size_t slice, int x, int y) const {
-    Given g = place(given);
-    g.mix = SliceMix{};
+    // As it is: at the ends of a half or quarter of the circle rounding could turn it into another.
+    Given g;
+    g.w = given;
+    const Polar polar = polar_of(given, given)[0];
+    g.theta = polar.theta;
+    g.phi = polar.phi;
     g.mix.slice[0] = std::uint32_t(slice);
     const auto at = t_.vndf.sample(std::min(float(x) / float(t_.width - 1), 0.9999999f),
                                    std::min(float(y) / float(t_.height - 1), 0.9999999f), g.mix);

@@ -59,7 +59,7 @@ class RglBrdf {
                                   std::span<float> out) const;
 
     const RglTables& tables() const { return t_; }
-    /// What a node (x, y) of a slice's spectra stands for.
+    /// What a node (x, y) of a slice's spectra stands for; `given` is the slice's own direction.
     struct Node {
         Vec3f direction;  ///< the other one; may be below the horizon
         float factor;     ///< spectra times this are f cos

@@ -14,15 +14,14 @@ constexpr double same = 1e-6;
 
 }  // namespace
 
-PointTree::Point ScatteredMeasured::place(const Vec3d& wi, const Vec3d& given) const {
-    // Light that goes through is placed by its mirror image in the surface.
+PointTree::Point scattered_place(const Vec3d& wi, const Vec3d& given, bool isotropic) {
     const Vec3d wo{given.x, given.y, std::abs(given.z)};
     const Vec3d sum = wi + wo;
     const Vec3d h = normalize(sum);
     const double theta_h = std::atan2(std::hypot(h.x, h.y), h.z);
     const double stretched = std::sqrt(theta_h * (2. / pi));
     const Vec3d apart = (wi - wo) * 0.5;
-    if (!info_.isotropic) {
+    if (!isotropic) {
         const double across = std::hypot(h.x, h.y);
         const double s = across > 0. ? stretched / across : 0.;
         return {s * h.x, s * h.y, apart.x, apart.y};
@@ -37,7 +36,8 @@ bool ScatteredMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double>
     if (side.tree.size() == 0 || wi.z < side.least_in || std::abs(wo.z) < side.least_out)
         return false;
     PointTree::Near near[neighbours + 1];
-    const int count = side.tree.nearest(place(wi, wo), neighbours + 1, near);
+    const int count =
+        side.tree.nearest(scattered_place(wi, wo, info_.isotropic), neighbours + 1, near);
     if (!(near[0].distance <= reach_)) return false;
     double weight[neighbours + 1] = {};
     double sum = 0.;
@@ -79,7 +79,7 @@ ScatteredMeasured::Side ScatteredMeasured::make_side(bool reflection) const {
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
         const Pair& p = pairs_[i];
         if (p.state == SampleState::missing || (p.wo.z > 0.) != reflection) continue;
-        points.push_back(place(p.wi, p.wo));
+        points.push_back(scattered_place(p.wi, p.wo, info_.isotropic));
         side.pair.push_back(std::uint32_t(i));
         in = std::min(in, p.wi.z);
         out = std::min(out, std::abs(p.wo.z));

@@ -19,6 +19,10 @@
 
 namespace nacre {
 
+/// The coordinates above of a pair with wi above the horizon; light that goes through is placed by
+/// its mirror image in the surface.
+PointTree::Point scattered_place(const Vec3d& wi, const Vec3d& wo, bool isotropic);
+
 class ScatteredMeasured final : public Measured {
   public:
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override;
@@ -26,8 +30,6 @@ class ScatteredMeasured final : public Measured {
 
   private:
     friend class ScatteredBuilder;
-    PointTree::Point place(const Vec3d& wi, const Vec3d& wo) const;
-
     struct Pair {
         Vec3d wi, wo;
         SampleState state;

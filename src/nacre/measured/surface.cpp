@@ -1,23 +1,15 @@
 #include "nacre/measured/surface.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "nacre/math/warp.h"
+#include "nacre/measured/held.h"
 #include "nacre/measured/rgl.h"
 
 namespace nacre {
 namespace {
 
 Vec3f mirrored(const Vec3f& w) { return {w.x, w.y, -w.z}; }
-
-/// The direction with the same azimuth whose angle to the normal is at most `degrees`.
-Vec3f held(const Vec3f& w, double degrees) {
-    const float least = float(std::cos(degrees * std::numbers::pi / 180.));
-    if (std::abs(w.z) >= least) return w;
-    const float s = std::sqrt((1.f - least * least) / (w.x * w.x + w.y * w.y));
-    return {w.x * s, w.y * s, std::copysign(least, w.z)};
-}
 
 void raise_to_zero(std::span<float> values) {
     for (float& v : values) v = std::max(v, 0.f);
@@ -55,11 +47,8 @@ MeasuredSurface::MeasuredSurface(std::unique_ptr<Measured> data) : data_(std::mo
 }
 
 bool MeasuredSurface::value(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const {
-    if (data_->eval_float(wi, wo, out)) return true;
-    const Vec3f near_wi = held(wi, info().largest_incidence);
-    const Vec3f near_wo = held(wo, info().largest_exit);
-    if (near_wi == wi && near_wo == wo) return false;
-    return data_->eval_float(near_wi, near_wo, out);
+    return eval_held(info(), wi, wo,
+                     [&](const Vec3f& i, const Vec3f& o) { return data_->eval_float(i, o, out); });
 }
 
 MeasuredSurface::Side MeasuredSurface::make_side(bool front) const {

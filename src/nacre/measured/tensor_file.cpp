@@ -6,11 +6,7 @@
 namespace nacre {
 namespace {
 
-using namespace std::string_view_literals;
-
 static_assert(std::endian::native == std::endian::little, "the file's numbers are copied as bytes");
-
-constexpr std::string_view magic = "tensor_file\0"sv;
 
 struct TypeInfo {
     std::string_view name;
@@ -103,12 +99,12 @@ std::vector<float> Tensor::floats() const {
     return values;
 }
 
-bool is_tensor_file(std::string_view head) { return head.starts_with(magic); }
+bool is_tensor_file(std::string_view head) { return head.starts_with(tensor_magic); }
 
 TensorFile parse_tensor_file(const MeasuredSource& source) {
     HeaderReader header(source);
     const std::string within = "the header of the tensor file";
-    if (header.text(magic.size(), within) != magic) source.fail("is no tensor file");
+    if (header.text(tensor_magic.size(), within) != tensor_magic) source.fail("is no tensor file");
     const int major = header.take<std::uint8_t>(within), minor = header.take<std::uint8_t>(within);
     if (major != 1 || minor != 0)
         source.fail(

@@ -41,7 +41,10 @@ struct Tensor {
 
 using TensorFile = std::map<std::string, Tensor, std::less<>>;
 
-/// Whether a file begins as a tensor file does.
+/// What a tensor file begins with.
+inline constexpr std::string_view tensor_magic{"tensor_file\0", 12};
+
+/// Whether a file begins so.
 bool is_tensor_file(std::string_view head);
 
 /// All fields; they refer to source.bytes. Throws InputError: another version, a header that breaks
