@@ -199,10 +199,12 @@ int run(MeasureArguments& o) {
             },
             1.);
         const Work work(&stop, Work::Clock::time_point::max(), {});
-        for (std::size_t i = 0; i < set.incidences.size() && !stop; ++i)
+        for (std::size_t i = 0; i < set.incidences.size() && !stop; ++i) {
+            line.update([&] { now = {i, set.incidences.size(), set.incidences[i].rays, 0.}; });
             measure(patch.patch, o.measure, set.incidences[i], work, [&](const MeasureProgress& p) {
                 line.update([&] { now = {i, set.incidences.size(), p.rays, p.noise}; });
             });
+        }
     };
     with_threads(o.threads, go);
     set.complete = !stop;
