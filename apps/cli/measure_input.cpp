@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/cli/measure_material.h"
 #include "apps/cli/number_option.h"
 #include "apps/cli/streams.h"
 #include "nacre/goniometer/patch_material.h"
@@ -29,6 +30,26 @@ std::array<double, 4> tile_of(const std::vector<std::string>& texts) {
     return tile;
 }
 
+void add_media(const Scene& scene, const std::string& file, MeasuredPatch& r) {
+    std::map<const Medium*, int> position;
+    const auto at = [&](const Medium* medium, const ShapeBinding& shape) {
+        if (!medium) return -1;
+        const auto [place, is_new] = position.try_emplace(medium, int(r.patch.media.size()));
+        if (!is_new) return place->second;
+        if (!medium->homogeneous())
+            throw InputError(
+                fmt::format("{}: the medium of '{}' varies in space; light is followed through "
+                            "homogeneous media only",
+                            file, shape.name));
+        const MediumCoefficients c = medium->coefficients({}, r.wavelengths);
+        r.patch.media.push_back({shape.name, c.sigma_t, c.sigma_s, medium->phase});
+        return place->second;
+    };
+    for (const ShapeBinding& s : scene.shapes)
+        r.patch.sides.push_back({s.separates_media, at(s.interior, s), at(s.exterior, s)});
+    if (r.patch.media.empty()) r.patch.sides.clear();
+}
+
 void load_scene_patch(const MeasureInput& input, MeasuredPatch& r) {
     if (!input.material.empty())
         throw InputError("--material is for generated surfaces: a scene says what it is made of");
@@ -43,12 +64,6 @@ void load_scene_patch(const MeasureInput& input, MeasuredPatch& r) {
     if (scene->mode == ColorMode::spectral && !input.nm)
         throw InputError(fmt::format(
             "{}: its materials depend on the wavelength: say which, --lambda nm", input.surface));
-    for (const ShapeBinding& s : scene->shapes)
-        if (s.separates_media)
-            throw InputError(
-                fmt::format("{}: '{}' has a medium behind it; only light that surfaces reflect and "
-                            "refract is measured",
-                            input.surface, s.name));
     const std::array<double, 4> tile = tile_of(input.tile);
     // Aliased: the rays live as long as their scene.
     const std::shared_ptr<const RayScene> rays(scene, &scene->rays);
@@ -58,6 +73,7 @@ void load_scene_patch(const MeasureInput& input, MeasuredPatch& r) {
             return scene->shapes[at.shape].material->at(at, w, scratch);
         },
         tile[0], tile[1], tile[2], tile[3]);
+    add_media(*scene, input.surface, r);
     r.facts["surface"] = "scene " + content_key(*scene);
     r.facts["tile"] = fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", r.patch.x, r.patch.y,
                                   r.patch.width, r.patch.height);
@@ -71,9 +87,10 @@ void generate_patch(const MeasureInput& input, MeasuredPatch& r) {
                         input.tile.empty() ? "-D" : "--tile"));
     const std::string material =
         input.material.empty() ? "lambert reflectance=0.5" : input.material;
-    r.patch = make_patch(make_microgeometry(input.surface), surface_bsdf(material, r.wavelengths));
     r.facts["surface"] = input.surface;
-    r.facts["material"] = material;
+    add_file_facts(input.surface, r.facts);
+    Microgeometry geometry = make_microgeometry(input.surface);
+    r.patch = make_patch(std::move(geometry), generated_material(material, r.wavelengths, r.facts));
 }
 
 }  // namespace
@@ -88,8 +105,9 @@ void add_measure_input(CLI::App& app, MeasureInput& input) {
                        known + ", with parameters: \"v_grooves angle=30\"")
         ->required();
     app.add_option("--material", input.material,
-                   "of a generated surface: a model with parameters, or mirror (\"lambert "
-                   "reflectance=0.5\")");
+                   "of a generated surface: a model or a material of scenes with parameters "
+                   "(\"dielectric int_ior=1.5\"), a file of measured reflectance, or mirror "
+                   "(\"lambert reflectance=0.5\")");
     app.add_option("-D,--define", input.defines, "name=value: sets a <default> of the scene");
     app.add_option("--tile", input.tile,
                    "x,y,width,height of a period of the scene (the extent of its shapes)")

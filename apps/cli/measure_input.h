@@ -29,8 +29,8 @@ struct MeasuredPatch {
 
 void add_measure_input(CLI::App& app, MeasureInput& input);
 
-/// Throws InputError for what is no surface, for scenes with media, and for options that do not
-/// belong together.
+/// Throws InputError for what is no surface, for scenes with media that vary in space, and for
+/// options that do not belong together.
 MeasuredPatch load_patch(const MeasureInput& input);
 
 }  // namespace nacre::cli

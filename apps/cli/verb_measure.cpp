@@ -6,6 +6,7 @@
 #include "apps/cli/number_option.h"
 #include "apps/cli/progress_bar.h"
 #include "apps/cli/verb.h"
+#include "nacre/goniometer/instrument.h"
 #include "nacre/goniometer/measurement_set.h"
 #include "nacre/math/error.h"
 #include "nacre/render/threads.h"
@@ -20,7 +21,7 @@ struct MeasureArguments {
     MeasureInput input;
     MeasureOptions measure;
     std::vector<std::string> theta, phi;
-    std::string bins, output;
+    std::string bins, output, instrument;
     int threads = 0;
     bool full = false, resume = false, quiet = false;
 };
@@ -125,7 +126,38 @@ void save(const MeasurementSet& set, const fs::path& file) {
     write_whole_file(error_file(file), csv_of(set, true));
 }
 
+/// a.csv or a.json and foo: a.foo.csv.
+fs::path instrument_file(const fs::path& output, const Instrument& instrument) {
+    return fs::path(output).replace_extension("." + instrument.name + ".csv");
+}
+
+void print(const Instrument& instrument, const MeasurementSet& set,
+           const std::vector<InstrumentReading>& readings) {
+    fmt::print("\nas the instrument {} reads it, in shares of the light that leaves the surface:\n",
+               instrument.name);
+    fmt::print("{:>7} {:>7} {:>13} {:>18} {:>16}\n", "theta", "phi", "out of reach",
+               "changed by blur", "changed by noise");
+    constexpr double degree = std::numbers::pi / 180.;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const DirectionCell& c = set.incidences[i].incidence;
+        fmt::print("{:>7.2f} {:>7.2f} ", c.theta() / degree, c.phi() / degree);
+        if (readings[i].reached)
+            fmt::print("{:>12.2f}% {:>17.2f}% {:>15.2f}%\n", 100. * readings[i].outside,
+                       100. * readings[i].blur, 100. * readings[i].noise);
+        else
+            fmt::print("no light from there: all of it\n");
+    }
+    const HemisphereBins bins = set.incidences.front().bins;
+    const double step = std::max(90. / bins.polar, 360. / bins.around);
+    if (instrument.source + instrument.detector < 0.5 * step)
+        fmt::print(
+            "bins of {:.3g} degrees are wider than its cones: blur within them is not seen\n",
+            step);
+}
+
 int run(MeasureArguments& o) {
+    std::optional<Instrument> instrument;
+    if (!o.instrument.empty()) instrument = make_instrument(o.instrument);
     o.measure.bins = bins_of(o.bins);
     const fs::path output = o.output;
     if (!o.output.empty()) {
@@ -133,6 +165,7 @@ int run(MeasureArguments& o) {
             throw InputError(fmt::format("-o '{}': a measurement is a .csv or a .json", o.output));
         check_output_file(output);
         if (output.extension() == ".csv") check_output_file(error_file(output));
+        if (instrument) check_output_file(instrument_file(output, *instrument));
     }
     if (o.resume && output.extension() != ".json")
         throw InputError("--resume needs -o FILE.json, the measurement that goes on");
@@ -147,6 +180,7 @@ int run(MeasureArguments& o) {
     o.measure.wavelengths = patch.wavelengths;
     MeasurementSet set{facts_of(o, patch), patch.lanes, {}, false};
     for (const DirectionCell& c : incidences) set.incidences.emplace_back(c, o.measure.bins);
+    if (instrument) check_azimuths(*instrument, set);
     if (o.resume && fs::exists(output)) {
         MeasurementSet before = read_measurement(output);
         check_facts(before.facts, set.facts, o.output);
@@ -165,15 +199,24 @@ int run(MeasureArguments& o) {
             },
             1.);
         const Work work(&stop, Work::Clock::time_point::max(), {});
-        for (std::size_t i = 0; i < set.incidences.size() && !stop; ++i)
+        for (std::size_t i = 0; i < set.incidences.size() && !stop; ++i) {
+            line.update([&] { now = {i, set.incidences.size(), set.incidences[i].rays, 0.}; });
             measure(patch.patch, o.measure, set.incidences[i], work, [&](const MeasureProgress& p) {
                 line.update([&] { now = {i, set.incidences.size(), p.rays, p.noise}; });
             });
+        }
     };
     with_threads(o.threads, go);
     set.complete = !stop;
     if (!output.empty()) save(set, output);
     if (!o.quiet || output.empty()) print(set, patch.wavelengths);
+    if (instrument) {
+        const std::vector<InstrumentReading> readings = read_instrument(*instrument, set);
+        if (!output.empty())
+            write_whole_file(instrument_file(output, *instrument),
+                             csv_of(set, o.instrument, readings));
+        if (!o.quiet || output.empty()) print(*instrument, set, readings);
+    }
     return stop ? interrupted : success;
 }
 
@@ -200,6 +243,9 @@ Action set_up_measure(CLI::App& app, const Invocation&) {
               "most of an incidence (268435456)");
     add_seed(app, o->measure.seed, "of the random numbers (0)");
     add_threads(app, o->threads);
+    app.add_option("--instrument", o->instrument,
+                   "also what a real one reports: cornell, foo or ward, with parameters \"foo "
+                   "detector=2\"; with -o as FILE.foo.csv");
     app.add_flag("--resume", o->resume, "go on with the measurement of -o");
     app.add_flag("--quiet", o->quiet, "no progress, only warnings and errors");
     app.add_option("-o,--output", o->output, "FILE.csv, with FILE.error.csv, or FILE.json");

@@ -122,6 +122,8 @@ int list(bool json) {
         for (const PeerDescription* p : peers()) r["peer"].push_back(peer_json(*p));
         for (const MicrogeometryDescription* g : microgeometries())
             r["microgeometry"].push_back(microgeometry_json(*g));
+        for (const InstrumentDescription* i : instruments())
+            r["instrument"].push_back(instrument_json(*i));
         fmt::print("{}\n", r.dump(2));
         return success;
     }
@@ -153,6 +155,9 @@ int list(bool json) {
     fmt::print("\nmicrogeometry (nacre measure)\n");
     for (const MicrogeometryDescription* g : microgeometries())
         fmt::print("  {:<22} {}\n", g->name, g->title);
+    fmt::print("\ngonioreflectometers (nacre measure --instrument)\n");
+    for (const InstrumentDescription* i : instruments())
+        fmt::print("  {:<22} {}\n", i->name, i->title);
     fmt::print("\nother renderers (nacre compare --peer)\n");
     for (const PeerDescription* p : peers()) fmt::print("  {:<22} {}\n", p->name, p->title);
     return success;
@@ -241,6 +246,8 @@ int show(const std::string& name, bool json) {
     for (const MicrogeometryDescription* g : microgeometries())
         if (finder.is(g->name))
             return print_page(json, microgeometry_json(*g), microgeometry_page(*g));
+    for (const InstrumentDescription* i : instruments())
+        if (finder.is(i->name)) return print_page(json, instrument_json(*i), instrument_page(*i));
     // Last, because some share their name with a material: those are asked for by number.
     for (const illumination::Description* m : illumination::models())
         if (finder.is(m->name) || std::to_string(m->number) == name)
@@ -262,7 +269,7 @@ Action set_up_models(CLI::App& app, const Invocation& invocation) {
     sub->add_option(
            "name", o->name,
            "a material, medium, diffusion profile, technique, phase function, integrator, peer, "
-           "microgeometry, or the name or number of an illumination model")
+           "microgeometry, an instrument, or the name or number of an illumination model")
         ->required();
     sub->add_flag("--json", o->json, "for programs");
     CLI::App* docs = app.add_subcommand("docs", "write the pages of all reflectance models");

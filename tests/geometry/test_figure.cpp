@@ -306,5 +306,46 @@ TEST(Figure, FollowsTheCanonOfTheHead) {
     EXPECT_GT(figure::from_head({0, 0, 100}).x, 15);  // turned to its left
 }
 
+// --- The drape
+// ------------------------------------------------------------------------------------
+
+// On the ball where it lies on it, down to the floor, its normals those of its triangles, its threads
+// along u and v of the flat cloth.
+TEST(Drape, LiesOnItsBallAndHangsToTheFloor) {
+    const Mesh mesh = make_figure(2, "drape");
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    const Box3f box = mesh.bounds();
+    EXPECT_NEAR(box.lower.y, 0., 1e-3);
+    EXPECT_NEAR(box.upper.y, 157., 1e-3);
+    const Point3f middle{0, 97, 0};
+    int on_ball = 0;
+    float nearest = 1e9f, farthest = 0.f;  // of the hem
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3f from = mesh.positions[i] - middle;
+        if (mesh.positions[i].y > 142.f) {
+            EXPECT_NEAR(length(from), 60., 1e-3);
+            EXPECT_GT(dot(mesh.normals[i], normalize(from)), 0.9999f);
+            // As long along the cloth as along the ball.
+            const double along = 60. * std::acos(std::min(1.f, from.y / 60.f));
+            const Vec2f uv = mesh.uvs[i] - Vec2f{0.5f, 0.5f};
+            EXPECT_NEAR(std::hypot(uv.x, uv.y) * 2. * 194.3, along, 1.);
+            ++on_ball;
+        }
+        if (mesh.positions[i].y < 1e-3f) {
+            const float r = std::hypot(from.x, from.z);
+            nearest = std::min(nearest, r);
+            farthest = std::max(farthest, r);
+        }
+    }
+    EXPECT_GT(on_ball, 500);
+    EXPECT_GT(farthest, 1.3f * nearest);  // folds
+    for (const Mesh::Triangle& t : mesh.triangles) {
+        const Vec3f n = cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                              mesh.positions[t[2]] - mesh.positions[t[0]]);
+        ASSERT_GT(dot(normalize(n), mesh.normals[t[0]]), 0.8f);
+    }
+}
+
 }  // namespace
 }  // namespace nacre

@@ -222,7 +222,8 @@ const Wrong objects[] = {
 <string name="material" value="marble"/><float name="int_ior" value="1.3"/></subsurface></shape>)",
      "scene.xml:3:41: the shape's own <bsdf> says what its indices are; leave 'int_ior' out"},
     {"FigureUnknown", R"(<shape type="figure"><string name="name" value="teapot"/></shape>)",
-     "scene.xml:2:22: 'name' of <shape type=\"figure\"> cannot be 'teapot'; known are: bust, pot"},
+     "scene.xml:2:22: 'name' of <shape type=\"figure\"> cannot be 'teapot'; known are: bust, pot, "
+     "drape"},
     {"MaterialUnknown", R"(<bsdf type="difuse"/>)",
      "scene.xml:2:1: unknown bsdf type 'difuse'; did you mean 'diffuse'?"},
     {"ReflectanceAboveOne", R"(<bsdf type="diffuse"><rgb name="reflectance" value="2"/></bsdf>)",

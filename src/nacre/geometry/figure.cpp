@@ -49,8 +49,9 @@ Mesh make_figure(float resolution_mm, std::string_view name) {
     if (!(resolution_mm >= 0.2f && resolution_mm <= 8.f))
         throw InputError(fmt::format(
             "figure: a resolution of {:.4g} mm is not possible; give 0.2 to 8 mm", resolution_mm));
+    if (name == "drape") return make_drape(resolution_mm);
     if (name != "bust" && name != "pot")
-        throw InputError(unknown_name("figure", name, {"bust", "pot"}));
+        throw InputError(unknown_name("figure", name, {"bust", "pot", "drape"}));
     const bool bust = name == "bust";
     // The steepest places, locks and pleats, stay below a slope of 1.5.
     Mesh mesh = surface_nets(bust ? figure_distance : pot_distance,

@@ -1,6 +1,6 @@
 #pragma once
 // The built-in sculptures, modelled for light that passes through them: a bust with thin, upright
-// ears and a pleated collar, and a pot for tea.
+// ears and a pleated collar, and a pot for tea; and for cloth a drape.
 #include <string_view>
 
 #include "nacre/geometry/mesh.h"
@@ -19,7 +19,12 @@ Box3f figure_box();
 float pot_distance(const Point3f& p);
 Box3f pot_box();
 
-/// The sculpture "bust" or "pot" as a closed, manifold mesh with smooth normals, in mm.
+/// A cloth over a ball, hanging in folds to the floor y = 0; 157 mm tall, an open sheet seen from
+/// above and around, with smooth normals and the coordinates of the flat cloth. `resolution_mm` is
+/// about the side of its quadrangles.
+Mesh make_drape(float resolution_mm);
+
+/// The sculpture "bust" or "pot" as a closed, manifold mesh with smooth normals, or "drape", in mm.
 /// `resolution_mm` is the side of a lattice cell: 1.6 gives about 390,000 triangles for the bust.
 /// @throws InputError for other names, and unless 0.2 <= resolution_mm <= 8.
 Mesh make_figure(float resolution_mm = 1.6f, std::string_view name = "bust");

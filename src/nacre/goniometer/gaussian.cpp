@@ -2,19 +2,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/goniometer/height_waves.h"
 #include "nacre/goniometer/microgeometry.h"
 #include "nacre/math/error.h"
-#include "nacre/math/random.h"
 
 namespace nacre {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double normal_number(Random& random) {
-    const Vec2f u = random.next2();
-    return std::sqrt(-2. * std::log(1. - double(u.x))) * std::cos(2. * pi * double(u.y));
-}
 
 void check_resolution(const char* name, int points, double lengths) {
     if (points < 4. * lengths)
@@ -35,21 +30,6 @@ std::vector<double> amplitudes(double lengths) {
     return r;
 }
 
-/// sqrt(2) times the standard deviation of the slopes of triangles between grid points.
-double slope_of(const std::vector<double>& heights, int columns, int rows, double step,
-                bool along) {
-    double sum = 0.;
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i) {
-            const std::size_t at = std::size_t(j) * columns + i;
-            const std::size_t next = along ? std::size_t(j) * columns + (i + 1) % columns
-                                           : std::size_t((j + 1) % rows) * columns + i;
-            const double slope = (heights[next] - heights[at]) / step;
-            sum += slope * slope;
-        }
-    return std::sqrt(2. * sum / (double(columns) * rows));
-}
-
 Microgeometry make_gaussian(const ParameterValues& v) {
     const int n = v.whole("points");
     const double lengths = v.number("lengths"), alpha = v.number("alpha");
@@ -57,37 +37,14 @@ Microgeometry make_gaussian(const ParameterValues& v) {
     Random random(stream_key(std::uint64_t(v.whole("seed")), 0x67617573));
     const std::vector<double> amplitude = amplitudes(lengths);
     const int most = int(amplitude.size()) - 1;
-    // For each wave number along x and both of its phases a sum of waves along y, then their sum.
-    std::vector<double> heights(std::size_t(n) * n, 0.);
-    std::vector<double> even(n), odd(n);
-    for (int a = 0; a <= most; ++a) {
-        std::fill(even.begin(), even.end(), 0.);
-        std::fill(odd.begin(), odd.end(), 0.);
-        for (int b = -most; b <= most; ++b) {
-            if (a == 0 && b <= 0) continue;  // waves of opposite numbers are one
-            const double size = amplitude[std::size_t(a)] * amplitude[std::size_t(std::abs(b))];
-            const double c = size * normal_number(random), s = size * normal_number(random);
-            for (int j = 0; j < n; ++j) {
-                const double phase = 2. * pi * ((std::int64_t(b) * j) % n) / n;
-                const double x = std::cos(phase), y = std::sin(phase);
-                even[std::size_t(j)] += c * x + s * y;
-                odd[std::size_t(j)] += s * x - c * y;
-            }
-        }
-        for (int i = 0; i < n; ++i) {
-            const double phase = 2. * pi * ((std::int64_t(a) * i) % n) / n;
-            const double x = std::cos(phase), y = std::sin(phase);
-            for (int j = 0; j < n; ++j)
-                heights[std::size_t(j) * n + i] +=
-                    x * even[std::size_t(j)] + y * odd[std::size_t(j)];
-        }
-    }
-    // The slopes that the period happens to have become those that are asked for.
+    std::vector<double> heights = sum_of_waves(
+        n, most,
+        [&](int a, int b) {
+            return amplitude[std::size_t(a)] * amplitude[std::size_t(std::abs(b))];
+        },
+        random);
     const double step = lengths / n;
-    const double along = slope_of(heights, n, n, step, true),
-                 across = slope_of(heights, n, n, step, false);
-    const double scale = alpha / std::sqrt(0.5 * (along * along + across * across));
-    for (double& h : heights) h *= scale;
+    scale_to_slope(heights, n, step, alpha);
     return height_field(n, n, step, heights);
 }
 

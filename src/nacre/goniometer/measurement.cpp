@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nacre/goniometer/patch_tracer.h"
 #include "nacre/math/error.h"
-#include "nacre/math/random.h"
 
 namespace nacre {
 
@@ -40,98 +40,7 @@ double IncidenceMeasurement::noise(const Wavelengths& wavelengths) const {
 
 namespace {
 
-constexpr int most_reflections = 10'000;
 constexpr std::uint64_t block_rays = 4096;
-
-/// What became of one ray.
-struct Arrival {
-    enum class Where : std::uint8_t { nowhere, above, below, cut, gone } where = Where::nowhere;
-    std::uint32_t bin = 0;
-    Spectral weight{0.f};
-};
-
-class Tracer {
-  public:
-    Tracer(const Patch& patch, const MeasureOptions& options, const DirectionCell& incidence)
-        : patch_(patch), options_(options), incidence_(incidence) {}
-
-    Arrival trace(Random random) const {
-        double turn = 0.;
-        if (options_.turned) turn = 2. * std::numbers::pi * double(random.next());
-        const Vec2f u = random.next2(), v = random.next2();
-        Vec3f d(turned(incidence_.draw(u.x, u.y), -turn));
-        d = -d;
-        // Uniform over the tile at the top is uniform over the projected area of what is below.
-        Point3f o{float(patch_.x + patch_.width * v.x), float(patch_.y + patch_.height * v.y),
-                  float(patch_.top)};
-        Spectral weight(1.f);
-        BsdfScratch scratch;
-        for (int reflections = 0; reflections < most_reflections;) {
-            const Flight flight = fly(patch_, o, d);
-            if (flight.fate == Fate::lost) break;
-            if (flight.fate != Fate::meets) {
-                const bool above = flight.fate == Fate::leaves_above;
-                const std::size_t bin = options_.bins.index(turned(Vec3d(d), turn));
-                return {above ? Arrival::Where::above : Arrival::Where::below, std::uint32_t(bin),
-                        weight};
-            }
-            scratch.reset();
-            const std::optional<BsdfSample> s = scatter(flight.at, d, random, scratch);
-            if (!s) return {};
-            if (!s->null) {
-                if (options_.orders > 0 && reflections == options_.orders)
-                    return {Arrival::Where::cut, 0, weight};
-                ++reflections;
-                weight *= s->weight;
-            }
-            d = s->wi;
-            o = flight.at.spawn(d);
-            if (reflections > 8) {  // Russian roulette
-                const float most = std::min(1.f, max_lane(weight));
-                if (!(random.next() < most)) return {};
-                weight *= Spectral(1.f / most);
-            }
-        }
-        return {Arrival::Where::gone, 0, weight};
-    }
-
-  private:
-    static Vec3d turned(const Vec3d& w, double angle) {
-        if (angle == 0.) return w;
-        const double c = std::cos(angle), s = std::sin(angle);
-        return {c * w.x - s * w.y, s * w.x + c * w.y, w.z};
-    }
-
-    /// The next direction, in world coordinates, with the weight of light that goes that way. The
-    /// BSDF draws where light could come from; here light goes there, so the roles are exchanged.
-    std::optional<BsdfSample> scatter(const SurfacePoint& at, const Vec3f& d, Random& random,
-                                      BsdfScratch& scratch) const {
-        const Bsdf& bsdf = patch_.bsdf(at, options_.wavelengths, scratch);
-        const Vec3f in = at.shading.to_local(-d);
-        const float u1 = random.next();
-        std::optional<BsdfSample> s = bsdf.sample(in, u1, random.next2());
-        if (!s) return {};
-        const Vec3f out = s->wi, world = at.shading.to_world(out);
-        if (!s->null) {
-            // Interpolated normals may see a direction that the surface does not.
-            if ((dot(world, at.ng) > 0.f) != (out.z > 0.f) || (dot(d, at.ng) < 0.f) != (in.z > 0.f))
-                return {};
-            if (s->delta)
-                s->weight *= Spectral(s->eta * s->eta);
-            else
-                s->weight =
-                    bsdf.eval(in, out) * Spectral(std::abs(out.z) / (std::abs(in.z) * s->pdf));
-        }
-        if (!all(s->weight >= Spectral(0.f)) || !(max_lane(s->weight) < 1e30f))
-            throw RunError("the material of the patch gives light that is no number");
-        s->wi = normalize(world);
-        return s;
-    }
-
-    const Patch& patch_;
-    const MeasureOptions& options_;
-    const DirectionCell& incidence_;
-};
 
 void check(const MeasureOptions& o, const DirectionCell& c) {
     if (o.bins.polar < 1 || o.bins.around < 1 || o.bins.size() > 1'000'000)
@@ -172,7 +81,7 @@ void add(IncidenceMeasurement& m, const Arrival& a) {
 void measure(const Patch& patch, const MeasureOptions& options, IncidenceMeasurement& m,
              const Work& work, const std::function<void(const MeasureProgress&)>& progress) {
     check(options, m.incidence);
-    const Tracer tracer(patch, options, m.incidence);
+    const PatchTracer tracer(patch, options, m.incidence);
     // Rays come in blocks with random numbers of their own, which are added in their order.
     constexpr std::uint64_t at_once = 64;
     std::vector<std::vector<Arrival>> blocks(at_once);

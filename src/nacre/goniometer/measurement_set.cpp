@@ -109,28 +109,40 @@ IncidenceMeasurement incidence_of(const json& j, const HemisphereBins& bins) {
 
 }  // namespace
 
-std::string csv_of(const MeasurementSet& set, bool errors) {
-    std::string text =
-        fmt::format("# virtual gonioreflectometer of nacre{}\n", errors ? ": standard errors" : "");
-    for (const auto& [name, value] : set.facts) text += fmt::format("# {}: {}\n", name, value);
+std::string csv_of(const MeasurementSet& set, const std::string& title,
+                   const std::function<double(std::size_t, bool, std::size_t, int)>& value,
+                   bool transmission) {
+    std::string text = fmt::format("# {}\n", title);
+    for (const auto& [name, fact] : set.facts) text += fmt::format("# {}: {}\n", name, fact);
     text += fmt::format("theta_i,phi_i,theta_o,phi_o,{}\n", fmt::join(set.lanes, ","));
-    for (const IncidenceMeasurement& m : set.incidences)
+    for (std::size_t n = 0; n < set.incidences.size(); ++n) {
+        const IncidenceMeasurement& m = set.incidences[n];
         for (const bool below : {false, true}) {
-            if (m.rays == 0 || (below && !passes(m))) continue;
+            if (m.rays == 0 || (below && !(transmission && passes(m)))) continue;
             for (std::size_t i = 0; i < m.bins.size(); ++i) {
                 const DirectionCell c = m.bins.cell(i);
                 const double theta = degrees(c.theta());
                 text += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", degrees(m.incidence.theta()),
                                     degrees(m.incidence.phi()), below ? 180. - theta : theta,
                                     degrees(c.phi()));
-                for (int k = 0; k < int(set.lanes.size()); ++k) {
-                    const MeasuredValue v = below ? m.btdf(i, k) : m.brdf(i, k);
-                    text += fmt::format(",{:.8g}", errors ? v.error : v.value);
-                }
+                for (int k = 0; k < int(set.lanes.size()); ++k)
+                    text += fmt::format(",{:.8g}", value(n, below, i, k));
                 text += '\n';
             }
         }
+    }
     return text;
+}
+
+std::string csv_of(const MeasurementSet& set, bool errors) {
+    return csv_of(
+        set,
+        fmt::format("virtual gonioreflectometer of nacre{}", errors ? ": standard errors" : ""),
+        [&](std::size_t n, bool below, std::size_t bin, int lane) {
+            const IncidenceMeasurement& m = set.incidences[n];
+            const MeasuredValue v = below ? m.btdf(bin, lane) : m.brdf(bin, lane);
+            return errors ? v.error : v.value;
+        });
 }
 
 std::string json_of(const MeasurementSet& set) {

@@ -1,6 +1,7 @@
 #pragma once
 // A whole measurement, several incidences of one patch, as tables and as a file that can go on.
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,6 +23,13 @@ struct MeasurementSet {
 /// light that came through), and the value of each lane, sr^-1; or, with `errors`, its standard
 /// error. Incidences without rays are left out.
 std::string csv_of(const MeasurementSet& set, bool errors = false);
+
+/// The same of values that somebody else has of the bins: NaN is no measurement. `title` is the
+/// first comment. Rows of transmitted light only where there is some, and `transmission`.
+std::string csv_of(const MeasurementSet& set, const std::string& title,
+                   const std::function<double(std::size_t incidence, bool below, std::size_t bin,
+                                              int lane)>& value,
+                   bool transmission = true);
 
 /// JSON: facts, lanes, and for each incidence its angles, rays, shares of the light and the arrays
 /// `brdf`, `brdf_error` (and `btdf`, `btdf_error` where light passes), bins by polar angle and then

@@ -1,20 +1,49 @@
 #include "nacre/goniometer/microgeometry.h"
 
+#include "nacre/math/error.h"
+#include "nacre/text/split_words.h"
+
 namespace nacre {
 
 const Catalogue<MicrogeometryDescription>& microgeometries() {
     static const MicrogeometryDescription* const list[] = {
-        &flat_geometry,    &cylinder_geometry, &v_groove_geometry, &gaussian_geometry,
-        &brushed_geometry, &fibre_geometry,    &weave_geometry};
+        &flat_geometry,     &cylinder_geometry, &v_groove_geometry,
+        &gaussian_geometry, &fractal_geometry,  &brushed_geometry,
+        &picture_geometry,  &fibre_geometry,    &weave_geometry};
     static const Catalogue<MicrogeometryDescription> all("microgeometry", std::span(list));
     return all;
 }
+
+namespace {
+
+/// Takes file=NAME out of the words of `text`, for surfaces that have one.
+std::filesystem::path take_file(const MicrogeometryDescription& d, std::string& text) {
+    std::filesystem::path file;
+    std::string rest;
+    for (const std::string_view word : split_words(text, " ")) {
+        if (!word.starts_with("file=") || word.size() == 5) {
+            rest += std::string(word) + ' ';
+            continue;
+        }
+        if (!file.empty()) throw InputError(fmt::format("{}: file is given twice", d.name));
+        file = word.substr(5);
+    }
+    if (file.empty()) throw InputError(fmt::format("{}: which one? file=NAME is missing", d.name));
+    text = rest;
+    return file;
+}
+
+}  // namespace
 
 Microgeometry make_microgeometry(std::string_view text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
     const std::size_t end = std::min(text.find_first_of(" \t", begin), text.size());
     const MicrogeometryDescription& d = microgeometries().find(text.substr(begin, end - begin));
-    return d.make(ParameterValues(d.name, d.parameters, parse_settings(text.substr(end))));
+    std::string settings(text.substr(end));
+    const std::filesystem::path file =
+        d.make_of_file ? take_file(d, settings) : std::filesystem::path();
+    const ParameterValues values(d.name, d.parameters, parse_settings(settings));
+    return d.make_of_file ? d.make_of_file(values, file) : d.make(values);
 }
 
 Microgeometry height_field(int columns, int rows, double step, const std::vector<double>& heights) {

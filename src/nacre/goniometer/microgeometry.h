@@ -1,6 +1,7 @@
 #pragma once
 // Microgeometry that is generated: one period of it as triangles, by name and parameters.
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -25,18 +26,23 @@ struct MicrogeometryDescription {
     std::vector<Parameter> parameters;
     std::vector<std::string_view> references = {};
     Microgeometry (*make)(const ParameterValues& values) = nullptr;
+    /// Instead, for what is read from a file: its parameter file=NAME comes beside the others.
+    Microgeometry (*make_of_file)(const ParameterValues& values,
+                                  const std::filesystem::path& file) = nullptr;
 };
 
 /// The list. Angles in it are in degrees, lengths in the unit that each names.
 const Catalogue<MicrogeometryDescription>& microgeometries();
 
 /// "v_grooves angle=30": one of the list by its name, with its parameters. Throws InputError for
-/// names and values that mean nothing, and for combinations that have no surface.
+/// names and values that mean nothing, for combinations that have no surface, and for files that
+/// cannot be read.
 Microgeometry make_microgeometry(std::string_view text);
 
 // The descriptions, one a file.
 extern const MicrogeometryDescription flat_geometry, cylinder_geometry, v_groove_geometry,
-    gaussian_geometry, brushed_geometry, fibre_geometry, weave_geometry;
+    gaussian_geometry, fractal_geometry, brushed_geometry, picture_geometry, fibre_geometry,
+    weave_geometry;
 
 /// Heights over a grid of `columns` x `rows` points with spacing `step`, row after row; the grid
 /// repeats. One cell more stands on each side of the tile.

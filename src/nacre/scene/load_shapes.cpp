@@ -66,7 +66,7 @@ std::uint32_t add_cube(const SceneNode& node, RayScene& rays, BuildContext&) {
 std::uint32_t add_figure(const SceneNode& node, RayScene& rays, BuildContext& context) {
     const auto in_memory = context.meshes.find(&node);
     if (in_memory != context.meshes.end()) return add_mesh(node, in_memory->second, rays);
-    const std::string name = node.get_choice("name", {"bust", "pot"});
+    const std::string name = node.get_choice("name", {"bust", "pot", "drape"});
     const double resolution = node.get_float_in("resolution", 1.6, 0.2, 8.);
     Mesh mesh = make_figure(static_cast<float>(resolution), name);
     apply(node.get_transform("to_world"), mesh);
