@@ -104,8 +104,11 @@ std::string curves(const Table& t, const std::string& using_format) {
             lines.push_back(fmt::format("$band{} using 1:2 with lines ls {} title {}", c, line,
                                         quoted(name_of(t, c) + ", ±2 standard errors")));
         } else {
-            lines.push_back(fmt::format("$data using {} with lines ls {} title {}",
-                                        fmt::format(fmt::runtime(using_format), c + 1), line,
+            const bool points = std::ranges::find(t.points, c) != t.points.end();
+            lines.push_back(fmt::format("$data using {} with {} title {}",
+                                        fmt::format(fmt::runtime(using_format), c + 1),
+                                        points ? std::string("points pt 7 ps 0.4 lc rgb '#1c1d1f'")
+                                               : fmt::format("lines ls {}", line),
                                         title));
         }
     }
