@@ -1,40 +1,20 @@
 // nacre compare --models: reflectance models, each fitted to one target.
 #include <CLI/CLI.hpp>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/compare.h"
 #include "apps/cli/interrupt.h"
+#include "apps/cli/model_list.h"
 #include "apps/cli/streams.h"
 #include "nacre/math/error.h"
 #include "nacre/report/experiment.h"
 #include "nacre/report/model_document.h"
 #include "nacre/report/report.h"
 #include "nacre/text/names.h"
-#include "nacre/text/split_words.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
 namespace {
-
-/// "ward variant=duer,ggx": what begins like a number goes on with the colour before the comma.
-std::vector<ModelSpec> parse_models(const std::string& text) {
-    std::vector<std::string> items;
-    for (const std::string_view view : split_words(text, ",")) {
-        std::string word(view.substr(std::min(view.find_first_not_of(' '), view.size())));
-        if (word.empty()) continue;
-        const bool number = !std::isalpha(static_cast<unsigned char>(word[0]));
-        std::ranges::replace(word, ':', ' ');
-        if (number && !items.empty())
-            items.back() += "," + word;
-        else
-            items.push_back(word);
-    }
-    if (items.empty()) throw InputError("--models: no model is named; see 'nacre models'");
-    std::vector<ModelSpec> specs;
-    for (const std::string& item : items) specs.push_back(parse_model_spec(item));
-    return specs;
-}
 
 FitMetric parse_metric(const std::string& text) {
     if (text == "log") return FitMetric::log;
@@ -63,7 +43,7 @@ int compare_models(const CompareOptions& o, const CLI::App& app, const Invocatio
                                "--techniques", "--spp", "--reference", "--repeats", "--peer"})
         if (app.count(option))
             throw InputError(fmt::format("{} has no meaning for --models", option));
-    const std::vector<ModelSpec> models = parse_models(o.models);
+    const std::vector<ModelSpec> models = parse_models("--models", o.models);
     const std::unique_ptr<Target> target = make_target(o.target);
     check_models(models);
     make_output_folder(o.output / "pictures");

@@ -38,6 +38,7 @@ constexpr Verb verbs[] = {
     {"measure", "measure the BRDF of microgeometry: a virtual gonioreflectometer", set_up_measure},
     {"data", "measured reflectance: what a file holds", set_up_data},
     {"factor", "factor a BRDF into sums of products of textures", set_up_factor},
+    {"fit", "fit reflectance models to a measured BRDF, or to another model", set_up_fit},
     {"info", "say what is in a scene, mesh, image or measured file", set_up_info},
     {"merge", "put together what was rendered with other seeds or in parts", set_up_merge},
     {"diff", "compare two pictures", set_up_diff},

@@ -104,10 +104,12 @@ std::string curves(const Table& t, const std::string& using_format) {
             lines.push_back(fmt::format("$band{} using 1:2 with lines ls {} title {}", c, line,
                                         quoted(name_of(t, c) + ", ±2 standard errors")));
         } else {
-            lines.push_back(fmt::format("$data using {} with {} ls {} {}title {}",
-                                        fmt::format(fmt::runtime(using_format), c + 1),
-                                        t.rows.size() > 1 ? "lines" : "points", line,
-                                        t.rows.size() > 1 ? "" : "pt 7 ", title));
+            const bool points = std::ranges::find(t.points, c) != t.points.end();
+            const std::string as = points ? "points pt 7 ps 0.4 lc rgb '#1c1d1f'"
+                                   : t.rows.size() == 1 ? fmt::format("points ls {} pt 7", line)
+                                                        : fmt::format("lines ls {}", line);
+            lines.push_back(fmt::format("$data using {} with {} title {}",
+                                        fmt::format(fmt::runtime(using_format), c + 1), as, title));
         }
     }
     bands.insert(bands.end(), lines.begin(), lines.end());

@@ -24,8 +24,9 @@ struct Table {
     /// Columns that hold standard errors, with the column they belong to (both from 0): drawn as
     /// bands of two standard errors about its line, not as curves of their own.
     std::map<std::size_t, std::size_t> errors = {};
-    std::string x_label = {};             ///< else the name of the first column
-    std::vector<std::string> names = {};  ///< of the columns in pictures, else as in the CSV
+    std::string x_label = {};              ///< else the name of the first column
+    std::vector<std::string> names = {};   ///< of the columns in pictures, else as in the CSV
+    std::vector<std::size_t> points = {};  ///< columns that are drawn as points: what was measured
     /// Of rows (areas of rings), by which pictures take noisy neighbours together; empty: all 1.
     std::vector<double> weights = {};
 };

@@ -43,6 +43,7 @@ Action set_up_measure(CLI::App& app, const Invocation& invocation);
 Action set_up_models(CLI::App& app, const Invocation& invocation);
 Action set_up_data(CLI::App& app, const Invocation& invocation);
 Action set_up_factor(CLI::App& app, const Invocation& invocation);
+Action set_up_fit(CLI::App& app, const Invocation& invocation);
 Action set_up_info(CLI::App& app, const Invocation& invocation);
 Action set_up_diff(CLI::App& app, const Invocation& invocation);
 Action set_up_merge(CLI::App& app, const Invocation& invocation);

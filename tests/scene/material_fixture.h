@@ -139,6 +139,17 @@ inline std::vector<NamedMaterial> all_materials() {
     add("blendbsdf with a mirror",
         bsdf("blendbsdf", {number("weight", 0.5)}, {child(diffuse), child(bsdf("thindielectric"))}),
         true);
+    add("sumbsdf",
+        bsdf("sumbsdf", {rgb("weight1", {0.5f, 0.4f, 0.f}), number("weight3", 0.3)},
+             {child(diffuse),
+              child(bsdf("roughconductor",
+                         {number("alpha", 0.2), rgb("specular_reflectance", {0.1f, 0.2f, 0.3f})})),
+              child(metal)}),
+        false);
+    add("sumbsdf with a mirror",
+        bsdf("sumbsdf", {number("weight1", 0.4), rgb("weight2", {0.1f, 0.5f, 0.6f})},
+             {child(diffuse), child(bsdf("thindielectric"))}),
+        true);
     add("difftrans", bsdf("difftrans", {rgb("transmittance", {0.7f, 0.4f, 0.1f})}), true);
     add("coated difftrans",
         bsdf("difftrans", {number("transmittance", 0.4), number("coat", 1)},

@@ -34,7 +34,7 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
              "test.xml:1:1: unknown bsdf type 'xyzzy'; known are: blendbsdf, conductor, "
              "dielectric, difftrans, diffuse, hk, mask, measured, null, plastic, roughconductor, "
              "roughdielectric, "
-             "roughplastic, thindielectric, twosided, {}",
+             "roughplastic, sumbsdf, thindielectric, twosided, {}",
              fmt::join(model_names(), ", "))},
         {bsdf("diffuse", {number("reflectence", 0.5)}),
          "test.xml:2:5: <bsdf type=\"diffuse\"> has no parameter 'reflectence'; did you mean "
@@ -116,6 +116,14 @@ TEST(MaterialErrors, SayWhatIsWrongWhereAndHowToMendIt) {
          "test.xml:2:5: 'cutoff' of <bsdf type=\"mask\"> must lie within [0, 1]; got 1.5"},
         {bsdf("blendbsdf", {}, {child(diffuse)}),
          "test.xml:1:1: <bsdf type=\"blendbsdf\"> takes 2 nested <bsdf>, but 1 is given"},
+        {bsdf("sumbsdf", {}, {child(diffuse)}),
+         "test.xml:1:1: <bsdf type=\"sumbsdf\"> takes 2 to 9 nested <bsdf>, but 1 is given"},
+        {bsdf("sumbsdf", {number("weight2", 1.5)}, {child(diffuse), child(diffuse)}),
+         "test.xml:2:5: 'weight2' of <bsdf type=\"sumbsdf\"> must lie within [0, 1], lest energy "
+         "appear from nowhere; got 1.5"},
+        {bsdf("sumbsdf", {number("weight3", 0.5)}, {child(diffuse), child(diffuse)}),
+         "test.xml:2:5: <bsdf type=\"sumbsdf\"> has no parameter 'weight3'; did you mean "
+         "'weight1'?"},
         {bsdf("blendbsdf", {number("weight", 2)}, {child(diffuse), child(diffuse)}),
          "test.xml:2:5: 'weight' of <bsdf type=\"blendbsdf\"> must lie within [0, 1], lest energy "
          "appear from nowhere; got 2"},

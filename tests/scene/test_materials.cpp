@@ -164,6 +164,31 @@ TEST(Materials, LoseNothingWhereNothingAbsorbs) {
     EXPECT_NEAR(s.reflected + s.transmitted, 1., 0.01);
 }
 
+// A matte part of 0.3 and 0.2 of one of 0.5 are one of 0.4, and a share of a mirror is that share.
+TEST(Materials, SumsAddUp) {
+    using namespace test;
+    const auto grey = [](double r) { return child(bsdf("diffuse", {number("reflectance", r)})); };
+    const test::Bound sum(
+        material(bsdf("sumbsdf", {number("weight2", 0.2), number("weight3", 0.25)},
+                      {grey(0.3), grey(0.5), child(bsdf("conductor"))})));
+    const Vec3f wo = direction_of_cosine(0.6, 0.3);
+    for (double cosine : {0.1, 0.5, 0.95})
+        EXPECT_NEAR(sum->eval(direction_of_cosine(cosine, 2.), wo)[1],
+                    0.4 / std::numbers::pi * cosine, 1e-6);
+    Random random(stream_key(5, 1));
+    double smooth = 0., mirrored = 0.;
+    const int n = 40000;
+    for (int i = 0; i < n; ++i) {
+        const float u1 = random.next();
+        const auto s = sum->sample(wo, u1, random.next2());
+        ASSERT_TRUE(s);
+        (s->delta ? mirrored : smooth) += s->weight[1] / n;
+    }
+    // Of samples two thirds and a sixth and a sixth: standard errors below 0.002.
+    EXPECT_NEAR(smooth, 0.4, 0.01);
+    EXPECT_NEAR(mirrored, 0.25, 0.01);
+}
+
 TEST(Materials, SplitLightByFresnelsEquations) {
     for (float cosine : {0.2f, 0.5f, 0.9f, -0.3f, -0.9f}) {
         const float glass = 1.5046f / 1.000277f, eta = cosine > 0.f ? glass : 1.f / glass;

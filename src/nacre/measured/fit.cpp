@@ -1,149 +1,13 @@
 #include "nacre/measured/fit.h"
 
-#include <ceres/iteration_callback.h>
-#include <ceres/manifold.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
 #include <chrono>
+#include <numeric>
 
 #include "nacre/math/error.h"
-#include "nacre/measured/fit_residuals.h"
+#include "nacre/measured/fit_solver.h"
 
 namespace nacre {
 namespace {
-
-class StopWhenAsked final : public ceres::IterationCallback {
-  public:
-    explicit StopWhenAsked(const std::atomic<bool>* stop) : stop_(stop) {}
-    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-        return stop_ && *stop_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-    }
-
-  private:
-    const std::atomic<bool>* stop_;
-};
-
-struct Solution {
-    std::vector<double> x;
-    double cost = infinite;
-    int iterations = 0;
-    bool converged = false;
-};
-
-/// From x within the bounds. What `held` lists stays as it is.
-Solution solve(FitResiduals& residuals, const std::vector<Unknown>& unknowns, std::vector<double> x,
-               int iterations, const std::atomic<bool>* stop, const std::vector<int>& held = {}) {
-    ceres::Problem::Options ours;
-    ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(ours);
-    problem.AddParameterBlock(x.data(), int(x.size()));
-    problem.AddResidualBlock(&residuals, nullptr, x.data());
-    if (!held.empty())
-        problem.SetManifold(x.data(), new ceres::SubsetManifold(int(x.size()), held));
-    const Layout layout(unknowns);
-    for (std::size_t u = 0; u < unknowns.size(); ++u)
-        for (int k = 0; k < (unknowns[u].colour ? 3 : 1); ++k) {
-            problem.SetParameterLowerBound(x.data(), layout.first[u] + k, unknowns[u].low);
-            if (unknowns[u].high < infinite)
-                problem.SetParameterUpperBound(x.data(), layout.first[u] + k, unknowns[u].high);
-        }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = iterations;
-    options.function_tolerance = 1e-9;
-    options.gradient_tolerance = 1e-14;
-    options.parameter_tolerance = 1e-10;
-    options.logging_type = ceres::SILENT;
-    StopWhenAsked callback(stop);
-    options.callbacks.push_back(&callback);
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    if (!summary.IsSolutionUsable()) return {std::move(x)};
-    return {std::move(x), summary.final_cost, int(summary.iterations.size()),
-            summary.termination_type == ceres::CONVERGENCE};
-}
-
-/// Positions in x of what stands at the end of its range.
-std::vector<int> at_ends(const std::vector<Unknown>& unknowns, const std::vector<double>& x) {
-    std::vector<int> found;
-    const Layout layout(unknowns);
-    for (std::size_t u = 0; u < unknowns.size(); ++u)
-        for (int k = layout.first[u]; k < layout.first[u] + (unknowns[u].colour ? 3 : 1); ++k)
-            if (x[k] <= unknowns[u].low || x[k] >= unknowns[u].high) found.push_back(k);
-    return found;
-}
-
-/// Goes on from a solution. The solver's steps end at the bounds that they meet, which can be a
-/// crawl along them; so what has reached one is held while the others move, and let go again.
-Solution polished(FitResiduals& residuals, const std::vector<Unknown>& unknowns, Solution best,
-                  int iterations, const std::atomic<bool>* stop) {
-    for (int round = 0; round < 3 && best.cost < infinite && !(stop && *stop); ++round) {
-        const std::vector<int> held = at_ends(unknowns, best.x);
-        if (held.empty() || held.size() == best.x.size()) break;
-        const double before = best.cost;
-        for (const std::vector<int>& h : {held, std::vector<int>{}}) {
-            Solution next = solve(residuals, unknowns, best.x, iterations, stop, h);
-            next.iterations += best.iterations;
-            if (next.cost < best.cost) best = std::move(next);
-        }
-        if (best.cost > before * (1. - 1e-5)) break;
-    }
-    return best;
-}
-
-std::vector<double> spread(const std::vector<Unknown>& unknowns, const std::vector<double>& start) {
-    std::vector<double> x;
-    for (std::size_t u = 0; u < unknowns.size(); ++u)
-        x.insert(x.end(), unknowns[u].colour ? 3 : 1, start[u]);
-    return x;
-}
-
-/// Those that change anything near some start.
-std::vector<Unknown> active_unknowns(const ModelDescription& model,
-                                     const std::array<ValuesD, 3>& fixed,
-                                     const std::vector<Unknown>& unknowns,
-                                     const TargetSamples& samples, FitMetric metric) {
-    std::vector<bool> active(unknowns.size());
-    const FitResiduals trial(model, fixed, unknowns, samples, metric);
-    for (const auto& start : plan_starts(unknowns))
-        trial.note_active(spread(unknowns, start).data(), active);
-    std::vector<Unknown> kept;
-    for (std::size_t u = 0; u < unknowns.size(); ++u)
-        if (active[u]) kept.push_back(unknowns[u]);
-    return kept;
-}
-
-/// Drops solutions that cost as much as a better one, to one part in ten thousand: the same valley.
-/// Keeps at most three. They are sorted.
-void keep_different(std::vector<Solution>& solutions) {
-    std::vector<Solution> kept;
-    for (Solution& s : solutions)
-        if (kept.empty() || (kept.size() < 3 && s.cost > kept.back().cost * (1. + 1e-4)))
-            kept.push_back(std::move(s));
-    solutions = std::move(kept);
-}
-
-/// A few steps from every start, then the best ones to their ends. The first steps go by the
-/// logarithmic metric, whatever is asked for: highlights leave it smooth.
-Solution best_solution(const ModelDescription& model, const std::array<ValuesD, 3>& fixed,
-                       const std::vector<Unknown>& unknowns, const TargetSamples& samples,
-                       const TargetSamples& few, const FitOptions& options) {
-    const auto better = [](const Solution& a, const Solution& b) { return a.cost < b.cost; };
-    std::vector<Solution> solutions;
-    FitResiduals coarse(model, fixed, unknowns, few, FitMetric::log);
-    for (const auto& start : plan_starts(unknowns))
-        solutions.push_back(solve(coarse, unknowns, spread(unknowns, start), 15, options.stop));
-    std::stable_sort(solutions.begin(), solutions.end(), better);
-    if (!(solutions.front().cost < infinite))
-        throw RunError(fmt::format("{} cannot be fitted: its values are not finite", model.name));
-    keep_different(solutions);
-    FitResiduals fine(model, fixed, unknowns, samples, options.metric);
-    for (Solution& s : solutions)
-        s = solve(fine, unknowns, s.x, options.most_iterations, options.stop);
-    return polished(fine, unknowns, *std::min_element(solutions.begin(), solutions.end(), better),
-                    options.most_iterations, options.stop);
-}
 
 /// To six digits, as it is printed, so that what is measured is what is printed; towards the inside
 /// of the range.
@@ -156,70 +20,237 @@ double rounded(double x, const Unknown& unknown) {
 }
 
 /// Puts what comes within a millionth of an end of its range there; whether any does.
-bool snap_to_limits(const Unknown& unknown, double* x) {
+bool snap_to_limits(const Unknown& unknown, std::span<double> x) {
     bool any = false;
-    for (int k = 0; k < (unknown.colour ? 3 : 1); ++k)
+    for (double& v : x)
         for (double end : {unknown.low, unknown.high})
-            if (std::abs(x[k] - end) <= 1e-6 * std::max(1., std::abs(x[k]))) {
-                x[k] = end;
+            if (std::abs(v - end) <= 1e-6 * std::max(1., std::abs(v))) {
+                v = end;
                 any = true;
             }
     return any;
 }
 
-SettingValue fitted_value(const Unknown& unknown, const double* x) {
+SettingValue fitted_value(const Unknown& unknown, std::span<const double> x) {
     double r[3];
-    for (int k = 0; k < (unknown.colour ? 3 : 1); ++k) r[k] = rounded(x[k], unknown);
-    if (!unknown.colour || (r[1] == r[0] && r[2] == r[0])) return r[0];
+    for (std::size_t k = 0; k < x.size(); ++k) r[k] = rounded(x[k], unknown);
+    if (x.size() == 1 || (r[1] == r[0] && r[2] == r[0])) return r[0];
     return Vec3f(float(r[0]), float(r[1]), float(r[2]));
+}
+
+constexpr std::string_view matte = "kd";
+
+bool has_matte(const ModelDescription& model) {
+    return std::ranges::any_of(model.parameters,
+                               [](const Parameter& p) { return p.name == matte; });
+}
+
+bool sets_matte(const ModelDescription& model, const Setting& setting) {
+    const auto found = find_parameters(model.name, model.parameters, setting.name);
+    return model.parameters[std::size_t(found.front())].name == matte;
+}
+
+/// What a lobe is given: further ones have no matte part.
+Settings given_to_lobe(const ModelDescription& model, const Settings& given, int lobe) {
+    if (lobe == 0) return given;
+    Settings r;
+    for (const Setting& s : given)
+        if (!sets_matte(model, s)) r.push_back(s);
+    r.push_back({std::string(matte), 0.});
+    return r;
+}
+
+struct Lobe {
+    Settings fitted;                    ///< without the matte part
+    std::vector<std::string> at_limit;  ///< names of parameters
+    double width = 0.;                  ///< mean theta_h, radians
+};
+
+/// Lobes of some bands as they were found.
+struct BandsFit {
+    std::vector<Lobe> lobes;
+    Settings fitted_matte;
+    bool matte_at_limit = false;
+    int numbers = 0, iterations = 0;
+    bool converged = true;
+};
+
+/// One lobe more each time, from the best sum of those before.
+BandsFit fit_bands(const Evaluator& evaluator, const Settings& given, std::vector<int> bands,
+                   const TargetSamples& samples, const TargetSamples& few,
+                   const FitOptions& options) {
+    const ModelDescription& model = evaluator.description();
+    FitProblem fit{model, bands};
+    FitSolution best{{}, 0., 0, true};
+    for (int lobe = 0; lobe < options.lobes; ++lobe) {
+        const Settings fixed = given_to_lobe(model, given, lobe);
+        fit.lobes.push_back(band_values(AnyModel(evaluator, fixed, Bounds::ranges_only)));
+        const FitProblem alone{
+            model, bands, {fit.lobes.back()}, plan_unknowns(model, fixed, samples.isotropic)};
+        std::vector<Unknown> active = active_unknowns(alone, few, options.metric);
+        if (lobe > 0 && active.empty())
+            throw InputError(fmt::format(
+                "{}: nothing is left to fit in a further lobe; ask for one lobe", model.name));
+        std::vector<std::vector<double>> starts;
+        for (const auto& start : plan_starts(active)) {
+            starts.push_back(best.x);
+            const std::vector<double> own = spread(active, int(bands.size()), start);
+            starts.back().insert(starts.back().end(), own.begin(), own.end());
+        }
+        std::vector<int> held(best.x.size());
+        std::iota(held.begin(), held.end(), 0);
+        for (Unknown& u : active) {
+            u.lobe = lobe;
+            fit.unknowns.push_back(std::move(u));
+        }
+        if (!fit.unknowns.empty()) best = solve_from(fit, starts, held, samples, few, options);
+    }
+
+    BandsFit r{.lobes = std::vector<Lobe>(std::size_t(options.lobes)),
+               .fitted_matte = {},
+               .numbers = int(best.x.size()),
+               .iterations = best.iterations,
+               .converged = best.converged};
+    const Layout layout = fit.layout();
+    for (std::size_t u = 0; u < fit.unknowns.size(); ++u) {
+        const Unknown& unknown = fit.unknowns[u];
+        const std::span<double> x(&best.x[std::size_t(layout.first[u])],
+                                  std::size_t(layout.count[u]));
+        const bool limit = snap_to_limits(unknown, x);
+        const SettingValue value = fitted_value(unknown, x);
+        Lobe& lobe = r.lobes[std::size_t(unknown.lobe)];
+        if (unknown.name == matte) {
+            r.fitted_matte.push_back({unknown.name, value});
+            r.matte_at_limit = limit;
+            continue;
+        }
+        if (limit) lobe.at_limit.push_back(unknown.name);
+        // Lafortune's cx and cy move together, but no name means both.
+        if (find_parameters(model.name, model.parameters, unknown.name).size() ==
+            unknown.parameters.size())
+            lobe.fitted.push_back({unknown.name, value});
+        else
+            for (int i : unknown.parameters)
+                lobe.fitted.push_back({std::string(model.parameters[i].name), value});
+    }
+    return r;
+}
+
+/// The mean angle of half vectors to the normal, by the light that comes out.
+double width_of(const AnyModel& lobe, const TargetSamples& samples) {
+    const ModelTarget target(lobe, {});
+    double sum = 0., weight = 0.;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Vec3d f = *target.value(samples.wi[i], samples.wo[i]);
+        const double w = samples.weight[i] * samples.wi[i].z * (f.x + f.y + f.z);
+        sum += w * std::acos(std::min(1., normalize(samples.wi[i] + samples.wo[i]).z));
+        weight += w;
+    }
+    return weight > 0. ? sum / weight : 0.;
+}
+
+/// The widest lobe first.
+void sort_lobes(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
+                std::vector<Lobe>& lobes) {
+    if (lobes.size() < 2) return;
+    for (Lobe& lobe : lobes) {
+        Settings settings = given_to_lobe(evaluator.description(), given, 1);
+        settings.insert(settings.end(), lobe.fitted.begin(), lobe.fitted.end());
+        lobe.width = width_of(AnyModel(evaluator, settings, Bounds::ranges_only), samples);
+    }
+    std::ranges::stable_sort(lobes, std::greater(), &Lobe::width);
+}
+
+/// What exceeds a bound, a sum over all lobes; empty if nothing does.
+std::string what_exceeds(const ModelSum& sum) {
+    const ModelDescription& model = sum.terms().front().model.description();
+    try {
+        for (const ModelTerm& t : sum.terms())
+            AnyModel(t.model.evaluator(), t.settings, Bounds::enforced);
+        for (const SumBound& bound : model.bounds) {
+            Vec3d total{};
+            for (const ModelTerm& t : sum.terms())
+                for (int c = 0; c < 3; ++c)
+                    for (std::string_view name : bound.parameters)
+                        for (int i : find_parameters(model.name, model.parameters, name))
+                            total[c] += t.weight[c] * band_values(t.model)[c].scalar[i];
+            check_sum(model, bound, std::max({total.x, total.y, total.z}));
+        }
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return {};
 }
 
 }  // namespace
 
-ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
-                   const FitOptions& options) {
+SumFit fit_sum(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
+               const FitOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     const ModelDescription& model = evaluator.description();
-    const std::array<ValuesD, 3> fixed =
-        band_values(AnyModel(evaluator, given, Bounds::ranges_only));
-    const TargetSamples few = samples.thinned(8);
-    const std::vector<Unknown> unknowns = active_unknowns(
-        model, fixed, plan_unknowns(model, given, samples.isotropic), few, options.metric);
-    Solution best{{}, 0., 0, true};
-    if (!unknowns.empty()) best = best_solution(model, fixed, unknowns, samples, few, options);
-
-    Settings settings = given;
+    if (options.lobes > 1 && !has_matte(model))
+        throw InputError(fmt::format(
+            "{} has no diffuse albedo kd apart from its highlight: it has one lobe", model.name));
+    const TargetSamples few = samples.thinned(std::size_t(options.stride));
+    std::vector<ModelTerm> terms;
     std::vector<std::string> at_limit;
-    const Layout layout(unknowns);
-    for (std::size_t u = 0; u < unknowns.size(); ++u) {
-        const Unknown& unknown = unknowns[u];
-        double* x = &best.x[layout.first[u]];
-        if (snap_to_limits(unknown, x)) at_limit.push_back(unknown.name);
-        const SettingValue value = fitted_value(unknown, x);
-        // Lafortune's cx and cy move together, but no name means both.
-        if (find_parameters(model.name, model.parameters, unknown.name).size() ==
-            unknown.parameters.size())
-            settings.push_back({unknown.name, value});
-        else
-            for (int i : unknown.parameters)
-                settings.push_back({std::string(model.parameters[i].name), value});
+    int numbers = 0, iterations = 0;
+    bool converged = !(options.stop && *options.stop);
+    const std::vector<std::vector<int>> groups = options.by_channel
+                                                     ? std::vector<std::vector<int>>{{0}, {1}, {2}}
+                                                     : std::vector<std::vector<int>>{{0, 1, 2}};
+    for (const std::vector<int>& bands : groups) {
+        BandsFit f = fit_bands(evaluator, given, bands, samples, few, options);
+        sort_lobes(evaluator, given, samples, f.lobes);
+        constexpr const char* names[] = {" (red)", " (green)", " (blue)"};
+        const std::string channel = options.by_channel ? names[bands.front()] : "";
+        if (f.matte_at_limit) at_limit.push_back(std::string(matte) + channel);
+        for (int l = 0; l < options.lobes; ++l) {
+            const Lobe& lobe = f.lobes[std::size_t(l)];
+            Settings settings = given_to_lobe(model, given, l);
+            if (l == 0)
+                settings.insert(settings.end(), f.fitted_matte.begin(), f.fitted_matte.end());
+            settings.insert(settings.end(), lobe.fitted.begin(), lobe.fitted.end());
+            Vec3d weight{};
+            for (int c : bands) weight[c] = 1.;
+            terms.push_back({AnyModel(evaluator, settings, Bounds::ranges_only), settings, weight});
+            for (const std::string& name : lobe.at_limit)
+                at_limit.push_back(name + (l > 0 ? fmt::format(" of lobe {}", l + 1) : "") +
+                                   channel);
+        }
+        numbers += f.numbers;
+        iterations += f.iterations;
+        converged = converged && f.converged;
     }
-    const AnyModel fitted(evaluator, settings, Bounds::ranges_only);
-    ModelFit fit{.settings = settings,
-                 .text = settings_text(settings),
-                 .model = fitted,
-                 .errors = errors_of(fitted, samples),
-                 .iterations = best.iterations,
-                 .converged = best.converged && !(options.stop && *options.stop),
-                 .at_limit = at_limit,
-                 .beyond = {}};
-    try {
-        AnyModel(evaluator, settings, Bounds::enforced);
-    } catch (const InputError& e) {
-        fit.beyond = e.what();
-    }
+    SumFit fit{.sum = ModelSum(std::move(terms), std::string(model.name)),
+               .errors = {},
+               .numbers = numbers,
+               .iterations = iterations,
+               .converged = converged && !(options.stop && *options.stop),
+               .at_limit = at_limit,
+               .beyond = {}};
+    fit.errors = errors_of(fit.sum, samples);
+    fit.beyond = what_exceeds(fit.sum);
     fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return fit;
+}
+
+ModelFit fit_model(const Evaluator& evaluator, const Settings& given, const TargetSamples& samples,
+                   const FitOptions& options) {
+    FitOptions one = options;
+    one.lobes = 1;
+    one.by_channel = false;
+    const SumFit fit = fit_sum(evaluator, given, samples, one);
+    const ModelTerm& term = fit.sum.terms().front();
+    return {.settings = term.settings,
+            .text = settings_text(term.settings),
+            .model = term.model,
+            .errors = fit.errors,
+            .seconds = fit.seconds,
+            .iterations = fit.iterations,
+            .converged = fit.converged,
+            .at_limit = fit.at_limit,
+            .beyond = fit.beyond};
 }
 
 }  // namespace nacre

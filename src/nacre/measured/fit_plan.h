@@ -14,6 +14,21 @@ struct Unknown {
     bool colour = false;
     double low = 0., high = 0.;  ///< bounds of the fit, both ends included
     double start = 0.;
+    int lobe = 0;  ///< of a sum, whose it is
+};
+
+/// Positions of the numbers of unknowns in the list that the solver sees: one for each band in a
+/// row for a colour.
+struct Layout {
+    Layout(const std::vector<Unknown>& unknowns, int bands) {
+        for (const Unknown& u : unknowns) {
+            first.push_back(size);
+            count.push_back(u.colour ? bands : 1);
+            size += count.back();
+        }
+    }
+    std::vector<int> first, count;
+    int size = 0;
 };
 
 /// Colours and scalars that `given` does not set. Choices, whole numbers and wavelengths stay as

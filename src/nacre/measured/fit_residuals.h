@@ -8,17 +8,15 @@
 
 namespace nacre {
 
-/// Where the numbers of the unknowns stand in the list that the solver sees: three in a row for a
-/// colour.
-struct Layout {
-    explicit Layout(const std::vector<Unknown>& unknowns) {
-        for (const Unknown& u : unknowns) {
-            first.push_back(size);
-            size += u.colour ? 3 : 1;
-        }
-    }
-    std::vector<int> first;
-    int size = 0;
+/// What is fitted: a sum of lobes, each an instance of the model.
+struct FitProblem {
+    const ModelDescription& model;
+    std::vector<int> bands;  ///< of red, green and blue
+    /// Of each lobe the values of all parameters, by band; unknowns replace theirs.
+    std::vector<std::array<ValuesD, 3>> lobes = {};
+    std::vector<Unknown> unknowns = {};  ///< those of the first lobe before those of the second
+
+    Layout layout() const { return {unknowns, int(bands.size())}; }
 };
 
 /// Residuals: for each pair and band what the metric sees of model and target, times the root of
@@ -26,10 +24,7 @@ struct Layout {
 /// error. What is given must outlive it.
 class FitResiduals final : public ceres::CostFunction {
   public:
-    /// `fixed`: the values of all parameters, by band; unknowns replace theirs.
-    FitResiduals(const ModelDescription& model, const std::array<ValuesD, 3>& fixed,
-                 const std::vector<Unknown>& unknowns, const TargetSamples& samples,
-                 FitMetric metric);
+    FitResiduals(const FitProblem& problem, const TargetSamples& samples, FitMetric metric);
 
     /// False where a value is not finite.
     bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override;
@@ -37,17 +32,20 @@ class FitResiduals final : public ceres::CostFunction {
     void note_active(const double* x, std::vector<bool>& active) const;
 
   private:
-    ValuesD values_at(const double* x, int band) const;
-    bool add(const ValuesD& values, int band, std::size_t begin, std::size_t end, double* residuals,
-             double* jacobian) const;
+    struct Lobe {
+        std::size_t first = 0;  ///< of its unknowns
+        int unknowns = 0;       ///< how many
+        std::vector<int> slot;  ///< of each parameter, which of them sets it; -1: none
+    };
+    ValuesD values_at(const double* x, std::size_t lobe, std::size_t band) const;
+    bool add(const double* x, std::size_t band, std::size_t begin, std::size_t end,
+             double* residuals, double* jacobian) const;
 
-    const ModelDescription& model_;
-    const std::array<ValuesD, 3>& fixed_;
-    const std::vector<Unknown>& unknowns_;
+    const FitProblem& problem_;
     Layout layout_;
     const TargetSamples& samples_;
     FitMetric metric_;
-    std::vector<int> slot_;  ///< of each parameter, the position of its unknown; -1: none
+    std::vector<Lobe> lobes_;
     std::vector<double> factor_;
 };
 

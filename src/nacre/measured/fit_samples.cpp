@@ -52,6 +52,9 @@ TargetSamples sample_target(const Target& target, const FitGrid& grid) {
                 a.phi_h = 2. * pi * next_turn();
                 const DirectionPair pair = from_half_angle(a);
                 if (pair.wi.z < least || pair.wo.z < least) continue;
+                if (grid.nodes != FitGrid::Nodes::all &&
+                    ((h + d + p) % 2 == 1) != (grid.nodes == FitGrid::Nodes::odd))
+                    continue;
                 const auto value = target.value(pair.wi, pair.wo);
                 if (!value) {
                     ++r.missing;
@@ -86,29 +89,38 @@ double target_size(const TargetSamples& samples, FitMetric metric) {
     return std::sqrt(sum);
 }
 
-FitErrors errors_of(const AnyModel& model, const TargetSamples& samples) {
-    const std::array<ValuesD, 3> values = band_values(model);
+std::string_view name_of(FitMetric metric) {
+    return metric == FitMetric::cosine ? "cosine" : metric == FitMetric::log ? "log" : "cuberoot";
+}
+
+FitErrors errors_of(const Target& fitted, const TargetSamples& samples) {
     std::vector<Vec3d> found(samples.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 64), [&](const auto& r) {
         for (std::size_t i = r.begin(); i < r.end(); ++i)
-            for (int c = 0; c < 3; ++c)
-                found[i][c] = model.evaluator().eval(values[c], samples.wi[i], samples.wo[i]);
+            found[i] = fitted.value(samples.wi[i], samples.wo[i]).value_or(Vec3d{});
     });
+    const auto rms = [&](FitMetric metric) {
+        double sum = 0.;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double off = seen(found[i][c] * samples.wi[i].z, metric) -
+                                   seen(samples.value[i][c] * samples.wi[i].z, metric);
+                sum += samples.weight[i] * off * off / 3.;
+            }
+        return std::sqrt(sum);
+    };
     FitErrors e;
-    double cosine = 0., log = 0.;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double f = found[i][c] * samples.wi[i].z;
-            const double t = samples.value[i][c] * samples.wi[i].z;
-            const double l = seen(f, FitMetric::log) - seen(t, FitMetric::log);
-            cosine += samples.weight[i] * (f - t) * (f - t) / 3.;
-            log += samples.weight[i] * l * l / 3.;
-        }
-    e.cosine = std::sqrt(cosine);
-    e.log = std::sqrt(log);
+    e.cosine = rms(FitMetric::cosine);
+    e.log = rms(FitMetric::log);
+    e.cuberoot = rms(FitMetric::cuberoot);
     e.cosine_relative = e.cosine / target_size(samples, FitMetric::cosine);
     e.log_relative = e.log / target_size(samples, FitMetric::log);
+    e.cuberoot_relative = e.cuberoot / target_size(samples, FitMetric::cuberoot);
     return e;
+}
+
+FitErrors errors_of(const AnyModel& model, const TargetSamples& samples) {
+    return errors_of(ModelTarget(model, {}), samples);
 }
 
 }  // namespace nacre

@@ -29,6 +29,7 @@ constexpr MaterialType types[] = {
     {"roughconductor", make_roughconductor},
     {"roughdielectric", make_roughdielectric},
     {"roughplastic", make_roughplastic},
+    {"sumbsdf", make_sumbsdf},
     {"thindielectric", make_thindielectric},
     {"twosided", make_twosided},
 };
@@ -83,10 +84,12 @@ std::vector<MaterialPtr> nested_materials(const SceneNode& node, std::size_t lea
                                           std::size_t most, BuildContext& context) {
     const auto children = node.children_of("bsdf");
     if (children.size() < least || children.size() > most)
-        node.fail(fmt::format(
-            "{} takes {} nested <bsdf>, but {} given", node.describe(),
-            least == most ? std::to_string(least) : fmt::format("{} or {}", least, most),
-            children.size() == 1 ? "1 is" : fmt::format("{} are", children.size())));
+        node.fail(
+            fmt::format("{} takes {} nested <bsdf>, but {} given", node.describe(),
+                        least == most       ? std::to_string(least)
+                        : most == least + 1 ? fmt::format("{} or {}", least, most)
+                                            : fmt::format("{} to {}", least, most),
+                        children.size() == 1 ? "1 is" : fmt::format("{} are", children.size())));
     std::vector<MaterialPtr> materials;
     for (const SceneNode::Child* child : children)
         materials.push_back(make_material(*child->node, context));

@@ -18,6 +18,7 @@ MaterialPtr make_plastic(const SceneNode& node, BuildContext& context);
 MaterialPtr make_roughconductor(const SceneNode& node, BuildContext& context);
 MaterialPtr make_roughdielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_roughplastic(const SceneNode& node, BuildContext& context);
+MaterialPtr make_sumbsdf(const SceneNode& node, BuildContext& context);
 MaterialPtr make_thindielectric(const SceneNode& node, BuildContext& context);
 MaterialPtr make_twosided(const SceneNode& node, BuildContext& context);
 

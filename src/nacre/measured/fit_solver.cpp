@@ -1,0 +1,148 @@
+#include "nacre/measured/fit_solver.h"
+
+#include <ceres/iteration_callback.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include "nacre/math/error.h"
+
+namespace nacre {
+namespace {
+
+class StopWhenAsked final : public ceres::IterationCallback {
+  public:
+    explicit StopWhenAsked(const std::atomic<bool>* stop) : stop_(stop) {}
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+        return stop_ && *stop_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+
+  private:
+    const std::atomic<bool>* stop_;
+};
+
+/// From x within the bounds. What `held` lists stays as it is.
+FitSolution solve(FitResiduals& residuals, const FitProblem& fit, std::vector<double> x,
+                  int iterations, const std::atomic<bool>* stop,
+                  const std::vector<int>& held = {}) {
+    ceres::Problem::Options ours;
+    ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ours);
+    problem.AddParameterBlock(x.data(), int(x.size()));
+    problem.AddResidualBlock(&residuals, nullptr, x.data());
+    if (!held.empty())
+        problem.SetManifold(x.data(), new ceres::SubsetManifold(int(x.size()), held));
+    const Layout layout = fit.layout();
+    for (std::size_t u = 0; u < fit.unknowns.size(); ++u)
+        for (int k = layout.first[u]; k < layout.first[u] + layout.count[u]; ++k) {
+            problem.SetParameterLowerBound(x.data(), k, fit.unknowns[u].low);
+            if (fit.unknowns[u].high < infinite)
+                problem.SetParameterUpperBound(x.data(), k, fit.unknowns[u].high);
+        }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = iterations;
+    options.function_tolerance = 1e-9;
+    options.gradient_tolerance = 1e-14;
+    options.parameter_tolerance = 1e-10;
+    options.logging_type = ceres::SILENT;
+    StopWhenAsked callback(stop);
+    options.callbacks.push_back(&callback);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return {std::move(x)};
+    return {std::move(x), summary.final_cost, int(summary.iterations.size()),
+            summary.termination_type == ceres::CONVERGENCE};
+}
+
+/// Positions in x of what stands at the end of its range.
+std::vector<int> at_ends(const FitProblem& fit, const std::vector<double>& x) {
+    std::vector<int> found;
+    const Layout layout = fit.layout();
+    for (std::size_t u = 0; u < fit.unknowns.size(); ++u)
+        for (int k = layout.first[u]; k < layout.first[u] + layout.count[u]; ++k)
+            if (x[k] <= fit.unknowns[u].low || x[k] >= fit.unknowns[u].high) found.push_back(k);
+    return found;
+}
+
+/// Goes on from a solution. The solver's steps end at the bounds that they meet, which can be a
+/// crawl along them; so what has reached one is held while the others move, and let go again.
+FitSolution polished(FitResiduals& residuals, const FitProblem& fit, FitSolution best,
+                     int iterations, const std::atomic<bool>* stop) {
+    for (int round = 0; round < 3 && best.cost < infinite && !(stop && *stop); ++round) {
+        const std::vector<int> held = at_ends(fit, best.x);
+        if (held.empty() || held.size() == best.x.size()) break;
+        const double before = best.cost;
+        for (const std::vector<int>& h : {held, std::vector<int>{}}) {
+            FitSolution next = solve(residuals, fit, best.x, iterations, stop, h);
+            next.iterations += best.iterations;
+            if (next.cost < best.cost) best = std::move(next);
+        }
+        if (best.cost > before * (1. - 1e-5)) break;
+    }
+    return best;
+}
+
+/// Drops solutions that cost as much as a better one, to one part in ten thousand: the same valley.
+/// Keeps at most three. They are sorted.
+void keep_different(std::vector<FitSolution>& solutions) {
+    std::vector<FitSolution> kept;
+    for (FitSolution& s : solutions)
+        if (kept.empty() || (kept.size() < 3 && s.cost > kept.back().cost * (1. + 1e-4)))
+            kept.push_back(std::move(s));
+    solutions = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<double> spread(const std::vector<Unknown>& unknowns, int bands,
+                           const std::vector<double>& start) {
+    std::vector<double> x;
+    for (std::size_t u = 0; u < unknowns.size(); ++u)
+        x.insert(x.end(), std::size_t(unknowns[u].colour ? bands : 1), start[u]);
+    return x;
+}
+
+std::vector<Unknown> active_unknowns(const FitProblem& fit, const TargetSamples& samples,
+                                     FitMetric metric) {
+    std::vector<bool> active(fit.unknowns.size());
+    const FitResiduals trial(fit, samples, metric);
+    for (const auto& start : plan_starts(fit.unknowns))
+        trial.note_active(spread(fit.unknowns, int(fit.bands.size()), start).data(), active);
+    std::vector<Unknown> kept;
+    for (std::size_t u = 0; u < fit.unknowns.size(); ++u)
+        if (active[u]) kept.push_back(fit.unknowns[u]);
+    return kept;
+}
+
+FitSolution solve_from(const FitProblem& fit, std::vector<std::vector<double>> starts,
+                       const std::vector<int>& held, const TargetSamples& samples,
+                       const TargetSamples& few, const FitOptions& options) {
+    const auto better = [](const FitSolution& a, const FitSolution& b) { return a.cost < b.cost; };
+    std::vector<FitSolution> solutions;
+    FitResiduals coarse(fit, few, FitMetric::log);
+    FitSolution alone;  // the best of those that leave `held` as it is
+    for (auto& start : starts) {
+        if (!held.empty()) {
+            FitSolution s = solve(coarse, fit, start, 15, options.stop, held);
+            start = s.x;
+            if (s.cost < alone.cost) alone = std::move(s);
+        }
+        solutions.push_back(solve(coarse, fit, start, 15, options.stop));
+    }
+    std::stable_sort(solutions.begin(), solutions.end(), better);
+    if (!(solutions.front().cost < infinite))
+        throw RunError(
+            fmt::format("{} cannot be fitted: its values are not finite", fit.model.name));
+    keep_different(solutions);
+    FitResiduals fine(fit, samples, options.metric);
+    // Few pairs may lead astray what all of them have found before.
+    if (alone.cost < infinite)
+        solutions.push_back(solve(fine, fit, alone.x, options.most_iterations, options.stop, held));
+    for (FitSolution& s : solutions)
+        s = solve(fine, fit, s.x, options.most_iterations, options.stop);
+    return polished(fine, fit, *std::min_element(solutions.begin(), solutions.end(), better),
+                    options.most_iterations, options.stop);
+}
+
+}  // namespace nacre
