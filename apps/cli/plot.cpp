@@ -105,7 +105,7 @@ std::string curves(const Table& t, const std::string& using_format) {
                                         quoted(name_of(t, c) + ", ±2 standard errors")));
         } else {
             const bool points = std::ranges::find(t.points, c) != t.points.end();
-            const std::string as = points ? "points pt 7 ps 0.4 lc rgb '#1c1d1f'"
+            const std::string as = points               ? "points pt 7 ps 0.4 lc rgb '#1c1d1f'"
                                    : t.rows.size() == 1 ? fmt::format("points ls {} pt 7", line)
                                                         : fmt::format("lines ls {}", line);
             lines.push_back(fmt::format("$data using {} with {} title {}",
