@@ -197,7 +197,7 @@ class GuidedKinds : public RenderTest {
 };
 
 // Light scattered once, so that wrong weights show.
-TEST_F(GuidedKinds, LeaveSingleScattering) { compare_all(4, 1500, 6000); }
+TEST_F(GuidedKinds, LeaveSingleScattering) { compare_all(4, 700, 2800); }
 
 TEST_F(GuidedKinds, LeaveTheMean) { compare_all(-1, 300, 1000); }
 
