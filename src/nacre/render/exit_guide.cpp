@@ -76,12 +76,13 @@ float mean_extinction(const Medium& medium, const Box3f& box) {
 }  // namespace
 
 ExitGuide::ExitGuide(const Scene& scene, const Medium& medium, const ExitBoundary& boundary,
-                     DistanceGrid& grid, const Work& work, std::int32_t first_index)
+                     DistanceGrid& grid, GuideSkies& skies, const Work& work,
+                     std::int32_t first_index)
     : eta_(boundary.eta), spread_(boundary.spread) {
     Box3f bounds;
     for (const std::uint32_t shape : boundary.shapes) bounds.extend(scene.rays.bounds(shape));
     const float sigma_t = mean_extinction(medium, bounds);
-    targets_ = find_guide_targets(scene, bounds, boundary, max_targets);
+    targets_ = find_guide_targets(scene, bounds, boundary, skies, max_targets);
     if (targets_.empty() || !(sigma_t > 0.f)) return;
 
     // The most that the targets could bring: at the surface, facing each. Under a sky that brings

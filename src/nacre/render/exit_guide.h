@@ -71,7 +71,8 @@ class ExitGuide {
     /// indices from `first_index` on. Without lights worth guiding to, `active` is false. Throws
     /// Stopped if `work` says so.
     ExitGuide(const Scene& scene, const Medium& medium, const ExitBoundary& boundary,
-              DistanceGrid& grid, const Work& work = {}, std::int32_t first_index = 0);
+              DistanceGrid& grid, GuideSkies& skies, const Work& work = {},
+              std::int32_t first_index = 0);
 
     bool active() const { return !cells_.empty() && !targets_.empty(); }
     bool rough() const { return spread_ > 0.f; }

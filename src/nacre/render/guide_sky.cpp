@@ -171,6 +171,12 @@ std::shared_ptr<const GuideSky> GuideSky::of(const Light& light, float eta, floa
     return sky->most_ > 0.f ? sky : nullptr;
 }
 
+std::shared_ptr<const GuideSky> GuideSkies::of(const Light& light, float eta, float spread) {
+    const auto [place, is_new] = made_.try_emplace({&light, eta, spread});
+    if (is_new) place->second = GuideSky::of(light, eta, spread);
+    return place->second;
+}
+
 Vec3f GuideSky::sample(Random& random) const {
     const Vec2f choice = random.next2(), within = random.next2();
     return (choice.x < fine_share_ ? fine_ : wide_).sample(choice.y, within);

@@ -4,7 +4,9 @@
 //
 //   O. Karlik, M. Sik, P. Vevoda, T. Skrivan, J. Krivanek 2019, MIS Compensation: Optimizing
 //   Sampling Techniques in Multiple Importance Sampling, TOG 38(6).
+#include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "nacre/math/random.h"
@@ -70,6 +72,16 @@ class GuideSky {
     CubeDensity fine_, wide_;
     DirectionCube normals_;
     std::vector<Strength> strengths_;
+};
+
+/// Those that were made before: many objects may be below one sky.
+class GuideSkies {
+  public:
+    /// As GuideSky::of.
+    std::shared_ptr<const GuideSky> of(const Light& light, float eta, float spread);
+
+  private:
+    std::map<std::tuple<const Light*, float, float>, std::shared_ptr<const GuideSky>> made_;
 };
 
 }  // namespace nacre

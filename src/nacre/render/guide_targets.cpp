@@ -127,7 +127,8 @@ Vec3f GuideTarget::sample(const Point3f& y, Random& random) const {
 }
 
 std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object,
-                                            const ExitBoundary& boundary, int most) {
+                                            const ExitBoundary& boundary, GuideSkies& skies,
+                                            int most) {
     const float spread = boundary.spread;
     const auto is_inside = [&](const Light* light) {
         return std::ranges::any_of(boundary.lights_inside,
@@ -165,7 +166,7 @@ std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& obj
         }
         if (light->is_infinite()) {
             GuideTarget target;
-            target.sky = GuideSky::of(*light, boundary.eta, spread);
+            target.sky = skies.of(*light, boundary.eta, spread);
             if (target.sky) found.emplace_back(target.sky->flux(), target);
         }
     }

@@ -11,7 +11,8 @@ namespace nacre {
 /// that centre lies in it; of an environment what stands out of its mean; lights that are points only
 /// behind a rough boundary, which lets them be drawn.
 std::vector<GuideTarget> find_guide_targets(const Scene& scene, const Box3f& object,
-                                            const ExitBoundary& boundary, int most);
+                                            const ExitBoundary& boundary, GuideSkies& skies,
+                                            int most);
 
 /// Luminance of what a light that is a point sends to `at`, on a surface that faces it.
 float irradiance_of(const Light& point, const Point3f& at);

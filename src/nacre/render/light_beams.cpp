@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nacre/geometry/mesh_report.h"
 #include "nacre/optics/fresnel.h"
+#include "nacre/render/medium_pieces.h"
 
 namespace nacre {
 
@@ -35,11 +35,6 @@ Box3f common(const Box3f& a, const Box3f& b) {
 
 bool is_empty(const Box3f& b) {
     return b.lower.x > b.upper.x || b.lower.y > b.upper.y || b.lower.z > b.upper.z;
-}
-
-bool is_closed(const RayScene& rays, std::uint32_t shape) {
-    if (const Mesh* mesh = rays.mesh(shape)) return inspect(*mesh).closed();
-    return std::holds_alternative<Sphere>(*rays.primitive(shape));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "nacre/geometry/mesh_report.h"
+
 namespace nacre {
 
 namespace {
@@ -143,12 +145,22 @@ std::vector<MediumPiece> pieces_of(const Scene& scene, const MediumPiece& whole)
     return pieces;
 }
 
+bool is_closed(const RayScene& rays, std::uint32_t shape) {
+    if (const Mesh* mesh = rays.mesh(shape)) return inspect(*mesh).closed();
+    return std::holds_alternative<Sphere>(*rays.primitive(shape));
+}
+
 std::vector<LightPtr> lights_inside(const Scene& scene, const MediumPiece& piece) {
     std::vector<LightPtr> inside;
     for (const LightPtr& light : scene.lights) {
         const Box3f place = light->bounds();
         if (place.empty() || !overlap(place, piece.bounds)) continue;
-        bool is_inside = light->is_delta() && may_be_inside(scene, piece.around, place.center());
+        // No path meets such a light by chance: one that is seen through a hole must not be missed.
+        bool is_inside =
+            light->is_delta() && (may_be_inside(scene, piece.around, place.center()) ||
+                                  !std::ranges::all_of(piece.around, [&](std::uint32_t shape) {
+                                      return is_closed(scene.rays, shape);
+                                  }));
         for (std::uint32_t shape = 0; shape < scene.shapes.size() && !is_inside; ++shape) {
             if (scene.shapes[shape].light != light.get()) continue;
             // What shines itself lights its own inside where its faces are turned.

@@ -22,8 +22,12 @@ MediumPiece whole_of(const Scene& scene, const Medium& medium);
 /// bounds that could be known: it is outside of a shape that lies in none of the pieces.
 std::vector<MediumPiece> pieces_of(const Scene& scene, const MediumPiece& whole);
 
+/// Whether a shape encloses something by itself.
+bool is_closed(const RayScene& rays, std::uint32_t shape);
+
 /// Lights of which some of 16 points (or the place, of lights without extent) may lie inside of the
-/// shapes around a piece. Of closed shapes those are the ones that have such a point.
+/// shapes around a piece. Of closed shapes those are the ones that have such a point; where one is
+/// open, all lights without extent within the bounds.
 std::vector<LightPtr> lights_inside(const Scene& scene, const MediumPiece& piece);
 
 /// Whether the box of some light and the piece's overlap.

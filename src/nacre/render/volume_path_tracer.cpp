@@ -93,6 +93,7 @@ VolumePathTracer::VolumePathTracer(const Scene& scene, const Work& work)
       chains_(scene),
       has_null_(has_null_surfaces(scene)),
       sides_(scene.shapes.size(), {&unknown_, &unknown_, Exit::none}) {
+    for (const MediumPtr& medium : scene.media) media_[medium.get()].open = is_open(scene, *medium);
     for (const MediumPtr& medium : scene.media) prepare(*medium, work);
 }
 
@@ -166,7 +167,7 @@ void VolumePathTracer::add_piece(const Medium& medium, const MediumPiece& shapes
     std::int32_t first = 0;
     for (const ExitBoundary& exit : exits) {
         const ExitGuide& guide =
-            piece.guides.emplace_back(scene_, medium, exit, piece.grid, work, first);
+            piece.guides.emplace_back(scene_, medium, exit, piece.grid, skies_, work, first);
         first += guide.size();
         for (const std::uint32_t shape : exit.shapes)
             sides_[shape].exit = exit.spread > 0.f ? Exit::rough : Exit::smooth;
@@ -180,7 +181,7 @@ std::vector<ExitBoundary> VolumePathTracer::exit_boundaries(const MediumPiece& s
     for (const std::uint32_t i : shapes.around) {
         const ShapeBinding& shape = scene_.shapes[i];
         const ExitIndex index = exit_index(*shape.material);
-        if (!(index.eta > 0.f) || (shape.exterior && !is_open(scene_, *shape.exterior))) continue;
+        if (!(index.eta > 0.f) || (shape.exterior && !info(shape.exterior).open)) continue;
         const auto known = std::ranges::find(indices, index) - indices.begin();
         if (known == std::ssize(indices)) {
             indices.push_back(index);

@@ -36,6 +36,7 @@ class VolumePathTracer : public Integrator {
 
     /// What is known of a medium before rendering.
     struct MediumInfo {
+        bool open = true;  ///< light may come straight into it from outside
         float size = 0.f;  ///< smallest extent of what it fills; 0 if not known
         MajorantGrid majorants;
         /// Of the extinction, where only it varies in space and its integral is known.
@@ -91,6 +92,7 @@ class VolumePathTracer : public Integrator {
     bool has_null_ = false;
     std::unordered_map<const Medium*, MediumInfo> media_;
     const Piece unknown_{};     // of whose shapes nothing is known
+    GuideSkies skies_;          // of the guides
     std::deque<Piece> pieces_;  // stay where they are
     std::vector<Sides> sides_;  // of each shape
 };
