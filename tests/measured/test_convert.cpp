@@ -196,6 +196,11 @@ TEST(Convert, AnisotropyIsRefusedOrTurnedAround) {
     // The mean of cos^2 is a half.
     const Vec3d wi = test::towards(60., 25.), wo = test::towards(30., 80.);
     EXPECT_NEAR(test::value_at(*c.data, wi, wo).at(0), 1. + 0.5 * (1. - wi.z * wi.z), 2e-3);
+    // What has samples of its own has none once it is turned: a grid is written.
+    test::MadeKlems file;
+    file.blocks = {{"Reflection Front", "1 1 1 1 1\n1 2 1 1 1\n1 1 3 1 1\n1 1 1 4 1\n1 1 1 1 5"}};
+    const std::shared_ptr<const Measured> klems = test::parsed(file.text());
+    EXPECT_GT(convert(klems, format_named("csv"), options).data->info().samples, 5000u);
     for (const char* name : {"csv", "alta"})
         EXPECT_FALSE(convert(brushed, format_named(name), {}).data->info().isotropic) << name;
 }
