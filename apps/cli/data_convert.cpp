@@ -123,9 +123,22 @@ void print_conversion(const DataConvertArguments& o, const MeasuredFormat& forma
     }
 }
 
-int run_data_convert(const DataConvertArguments& o) {
+/// Options that the format has no use for would be left out silently.
+void check_options(const CLI::App& app, const MeasuredFormat& format) {
+    const bool rgl = format.name == "rgl", text = format.name == "csv" || format.name == "alta";
+    for (const char* option : {"--resolution", "--incidences", "--azimuths"})
+        if (!rgl && app.count(option))
+            throw InputError(
+                fmt::format("{} is for RGL; {} has no use for it", option, format.title));
+    if (!text && app.count("--step"))
+        throw InputError(
+            fmt::format("--step is for text formats; {} has no use for it", format.title));
+}
+
+int run_data_convert(const CLI::App& app, const DataConvertArguments& o) {
     if (o.output.empty()) throw InputError("say where to: -o FILE");
     const MeasuredFormat& format = output_format(o);
+    check_options(app, format);
     refuse_input_as_output(o.output, {o.input});
     check_output_file(o.output);
     const ConversionInput input = open_input(o);
@@ -181,7 +194,7 @@ Subverb set_up_data_convert(CLI::App& app) {
     sub->add_flag("--isotropic", o->options.turned_around,
                   "the mean over turns about the normal of what is anisotropic");
     sub->add_flag("--json", o->json, "for programs");
-    return {sub, [o] { return run_data_convert(*o); }};
+    return {sub, [o, sub] { return run_data_convert(*sub, *o); }};
 }
 
 }  // namespace nacre::cli

@@ -186,6 +186,10 @@ TEST_F(DataVerb, ConvertRefusesAndWritesNothing) {
          "nacre: MERL holds isotropic surfaces, and this one is anisotropic; --isotropic writes "
          "its "
          "mean over turns about the normal\n"},
+        {"lambert -o x.binary --resolution 16",
+         "nacre: --resolution is for RGL; MERL has no use for it\n"},
+        {"lambert -o x.bsdf --step 5",
+         "nacre: --step is for text formats; RGL has no use for it\n"},
         {"none.bsdf -o x.csv", "nacre: none.bsdf: cannot be read; check the name\n"},
     };
     for (const auto& [arguments, message] : cases) {
@@ -193,7 +197,7 @@ TEST_F(DataVerb, ConvertRefusesAndWritesNothing) {
         EXPECT_EQ(r.code, 2) << arguments;
         EXPECT_EQ(r.err, message) << arguments;
         EXPECT_EQ(r.out, "") << arguments;
-        for (const char* file : {"x.abc", "x.xml", "x.csv", "x.binary"})
+        for (const char* file : {"x.abc", "x.xml", "x.csv", "x.binary", "x.bsdf"})
             EXPECT_FALSE(std::filesystem::exists(folder_ / file)) << arguments;
     }
     EXPECT_EQ(read(folder_ / "paint.txt").substr(0, 12), "# blue paint");

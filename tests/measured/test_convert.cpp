@@ -53,6 +53,17 @@ TEST(Convert, TheErrorIsTheDifference) {
         EXPECT_NEAR(e.percentile95, 0.1, 1e-9);
         EXPECT_EQ(e.pairs, 4096u);
     }
+    // Half as much again in a tenth or a fiftieth of all azimuths.
+    for (const double part : {0.1, 0.02}) {
+        const MadeSource sector([&](int c, const Vec3d& i, const Vec3d&) {
+            const double turn = std::atan2(i.y, i.x) / (2. * pi) + 0.5;
+            return 0.1 * (c + 1) * (turn < part ? 1.5 : 1.);
+        });
+        for (const ResamplingError& e : resampling_errors(*wall, sector)) {
+            EXPECT_NEAR(e.mean, 0.5 * part, 0.26 * part) << e.where;  // four standard errors
+            EXPECT_NEAR(e.percentile95, part == 0.1 ? 0.5 : 0., 1e-9) << e.where;
+        }
+    }
     MadeSource half([](int c, const Vec3d&, const Vec3d&) { return 0.1 * (c + 1); });
     half.known = [](const Vec3d& wi, const Vec3d&) { return wi.x > 0.; };
     const auto few = resampling_errors(*wall, half), more = resampling_errors(half, *wall);
@@ -137,6 +148,16 @@ TEST(Convert, OwnSamplesComeBack) {
     EXPECT_EQ(alta.data->info().channels, 3);
     ASSERT_EQ(alta.lost.size(), 1u);
     EXPECT_EQ(alta.lost[0], "2 wavelengths: red, green and blue under D65 are written");
+    // One wavelength alone is a column of its own, and grey elsewhere.
+    const std::shared_ptr<const Measured> laser =
+        test::parsed("# num wls\n1\n633\n0.5 0.1 0.25 3.0 0.125\n0.2 0.1 0.4 2.0 0.2\n");
+    const Converted column = convert(laser, format_named("csv"), {});
+    EXPECT_TRUE(column.lost.empty());
+    EXPECT_EQ(column.data->info().wavelengths, std::vector<double>{633.});
+    const Converted grey = convert(laser, format_named("alta"), {});
+    ASSERT_EQ(grey.lost.size(), 1u);
+    EXPECT_EQ(grey.lost[0], "the wavelength: a single one is written as grey");
+    EXPECT_EQ(grey.data->info().channels, 1);
     ConvertOptions grid;
     grid.write.samples = false;
     grid.write.step = 15.;
@@ -175,6 +196,11 @@ TEST(Convert, AnisotropyIsRefusedOrTurnedAround) {
     // The mean of cos^2 is a half.
     const Vec3d wi = test::towards(60., 25.), wo = test::towards(30., 80.);
     EXPECT_NEAR(test::value_at(*c.data, wi, wo).at(0), 1. + 0.5 * (1. - wi.z * wi.z), 2e-3);
+    // What has samples of its own has none once it is turned: a grid is written.
+    test::MadeKlems file;
+    file.blocks = {{"Reflection Front", "1 1 1 1 1\n1 2 1 1 1\n1 1 3 1 1\n1 1 1 4 1\n1 1 1 1 5"}};
+    const std::shared_ptr<const Measured> klems = test::parsed(file.text());
+    EXPECT_GT(convert(klems, format_named("csv"), options).data->info().samples, 5000u);
     for (const char* name : {"csv", "alta"})
         EXPECT_FALSE(convert(brushed, format_named(name), {}).data->info().isotropic) << name;
 }

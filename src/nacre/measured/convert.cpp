@@ -117,16 +117,16 @@ std::shared_ptr<const Measured> made_to_fit(std::shared_ptr<const Measured> data
         lost.emplace_back("anisotropy: the mean over turns about the normal is written");
         data = turned_around(std::move(data));
     }
-    const bool spectral = data->info().wavelengths.size() > 1;
-    if (spectral && (options.colour || !format.keeps.wavelengths)) {
-        lost.push_back(fmt::format("{} wavelengths: red, green and blue under D65 are written",
-                                   data->info().wavelengths.size()));
-        data = in_colour(std::move(data));
-    } else if (data->info().channels == 1 && !format.keeps.grey) {
-        if (data->info().wavelengths.size() == 1)
-            lost.emplace_back("the wavelength: a single one is written as grey");
-        data = in_colour(std::move(data));
+    const std::size_t wavelengths = info.wavelengths.size();
+    if (wavelengths > 1 && (options.colour || !format.keeps.wavelengths)) {
+        lost.push_back(
+            fmt::format("{} wavelengths: red, green and blue under D65 are written", wavelengths));
+        return in_colour(std::move(data));
     }
+    if (wavelengths == 1 && (options.colour || !format.keeps.wavelengths || !format.keeps.grey))
+        lost.emplace_back("the wavelength: a single one is written as grey");
+    if (info.channels == 1 && (options.colour || !format.keeps.grey))
+        return in_colour(std::move(data));
     return data;
 }
 

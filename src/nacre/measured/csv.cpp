@@ -64,7 +64,7 @@ WrittenMeasured write_csv(const Measured& data, const WriteOptions& options) {
     std::string& text = written.bytes;
     if (!info.description.empty()) text += "# " + one_line(info.description) + "\n";
     text += "theta_i,phi_i,theta_o,phi_o";
-    if (info.wavelengths.size() > 1)
+    if (!info.wavelengths.empty())
         for (const double nm : info.wavelengths) text += fmt::format(",{:.9g}", nm);
     else
         text += info.channels == 3 ? ",r,g,b" : ",value";

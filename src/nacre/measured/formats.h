@@ -38,8 +38,8 @@ struct WriteOptions {
 
 struct WrittenMeasured {
     std::string bytes;
-    std::vector<std::string>
-        lost;  ///< what the file does not say that its source does, a sentence each
+    /// What the file does not say that its source does, a sentence each.
+    std::vector<std::string> lost;
 };
 
 /// What files of a format can hold.

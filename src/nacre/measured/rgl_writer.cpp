@@ -1,6 +1,7 @@
 // .bsdf files of the RGL database from any BRDF. The facets' distribution is that of the
 // retro-reflection, as in the database (facet_distribution.h); whatever it is, the file's values at its
-// nodes are those of the BRDF, because they are asked for where the reader puts the nodes. Between the nodes they are as good as the warp.
+// nodes are those of the BRDF, because they are asked for where the reader puts the nodes. Between the
+// nodes they are as good as the warp.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>

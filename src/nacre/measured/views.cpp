@@ -96,6 +96,7 @@ class TurnedView final : public View {
     explicit TurnedView(std::shared_ptr<const Measured> data) : data_(std::move(data)) {
         info_ = data_->info();
         info_.isotropic = true;
+        info_.samples = info_.missing = info_.negative = 0;  // it has none of its own
     }
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override {
         constexpr int turns = 32;

@@ -1,7 +1,7 @@
 #pragma once
 // Measured reflectance seen otherwise, and models seen as if measured: all that writers of files
-// (formats.h) and the audit need is a `Measured`. A view has no samples of its own; it keeps what it
-// looks at.
+// (formats.h) and the audit need is a `Measured`. A view keeps what it looks at, and has no
+// samples unless it says so.
 #include <memory>
 
 #include "nacre/measured/measured.h"
@@ -17,7 +17,8 @@ std::shared_ptr<const Measured> view_of(std::shared_ptr<const Target> target);
 std::shared_ptr<const Measured> view_of(const AnyModel& model, std::string name,
                                         std::vector<double> wavelengths);
 
-/// The colours of what has wavelengths or is grey (ChannelColours); what has colours is itself.
+/// The colours of what has wavelengths or is grey (ChannelColours), with its samples; what has colours
+/// is itself.
 std::shared_ptr<const Measured> in_colour(std::shared_ptr<const Measured> data);
 
 /// The mean over 32 turns about the normal, and over the two sides of the plane of incidence, of
