@@ -156,6 +156,7 @@ TEST_F(MeasureMaterials, MediaThatAreNotFollowed) {
          "medium ends at a surface"},
         {"fog.xml", "varies in space; light is followed through homogeneous media only"},
         {"flat --material dielectrc", "unknown material 'dielectrc'; did you mean 'dielectric'?"},
+        {"flat --material none.csv", "--material: cannot find the file 'none.csv'"},
         {"flat --material 'dielectric int_iro=1.5'",
          "--material: <bsdf type=\"dielectric\"> has no parameter 'int_iro'; did you mean "
          "'int_ior'?"},
