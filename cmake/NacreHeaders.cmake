@@ -6,7 +6,7 @@ set(NACRE_PROMISED_HEADERS
     layers/{layer,kubelka_munk,hanrahan_krueger,adding_doubling,slab_monte_carlo,mcml_io,skin}.h
     bssrdf/*.h metrics/{metrics,flip,pictures}.h vectors/check.h
     geometry/{mesh,mesh_io,mesh_report,transform,primitives,ray_scene,surface_points,figure}.h
-    goniometer/{measurement_set,microgeometry,patch_material}.h
+    goniometer/{instrument,measurement_set,microgeometry,patch_material}.h
     scene/{load,scene,demo_scene,subsurface,texture}.h
     render/{render,render_job,film_state,output,integrator,path_tracer,volume_path_tracer}.h
     technique/*.h techniques/*.h peers/peer.h

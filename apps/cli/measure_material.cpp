@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/cli/measured_page.h"
 #include "nacre/goniometer/patch_material.h"
 #include "nacre/math/error.h"
 #include "nacre/reflectance/registry.h"
@@ -106,6 +107,8 @@ SurfaceBsdf generated_material(const std::string& text, const Wavelengths& wavel
     if (name == "mirror" || models().look(name)) return surface_bsdf(text, wavelengths);
     std::vector<std::string> known = material_types();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
+        if (has_measured_extension(text))
+            throw InputError(fmt::format("--material: cannot find the file '{}'", text));
         known.emplace_back("mirror");
         throw InputError(unknown_name("material", name, known));
     }

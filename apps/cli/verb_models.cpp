@@ -247,7 +247,9 @@ int show(const std::string& name, bool json) {
         if (finder.is(g->name))
             return print_page(json, microgeometry_json(*g), microgeometry_page(*g));
     for (const InstrumentDescription* i : instruments())
-        if (finder.is(i->name)) return print_page(json, instrument_json(*i), instrument_page(*i));
+        if (finder.is(i->name) ||
+            finder.is(std::string(i->name) + "_instrument"))  // ward is a model
+            return print_page(json, instrument_json(*i), instrument_page(*i));
     // Last, because some share their name with a material: those are asked for by number.
     for (const illumination::Description* m : illumination::models())
         if (finder.is(m->name) || std::to_string(m->number) == name)

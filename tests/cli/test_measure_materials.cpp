@@ -156,6 +156,7 @@ TEST_F(MeasureMaterials, MediaThatAreNotFollowed) {
          "medium ends at a surface"},
         {"fog.xml", "varies in space; light is followed through homogeneous media only"},
         {"flat --material dielectrc", "unknown material 'dielectrc'; did you mean 'dielectric'?"},
+        {"flat --material none.csv", "--material: cannot find the file 'none.csv'"},
         {"flat --material 'dielectric int_iro=1.5'",
          "--material: <bsdf type=\"dielectric\"> has no parameter 'int_iro'; did you mean "
          "'int_ior'?"},
@@ -252,6 +253,7 @@ TEST_F(MeasureMaterials, InstrumentsReportBesideTheTruth) {
     const std::unique_ptr<Measured> table = read_measured(folder_ / "m.cornell.csv");
     EXPECT_EQ(table->info().samples, 2u * 9u * 18u);
     EXPECT_GT(table->info().missing, 9u * 18u);
+    EXPECT_NE(nacre("models show ward_instrument").out.find("half-silvered"), std::string::npos);
     ASSERT_EQ(nacre(arguments).code, 0);
     EXPECT_EQ(text, read(folder_ / "m.cornell.csv"));
 }

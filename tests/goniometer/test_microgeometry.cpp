@@ -101,6 +101,25 @@ TEST(Microgeometry, FibresStandAsDenseAndAsHighAsAsked) {
     EXPECT_EQ(feet, 81);
 }
 
+// Who looks down into velvet sees little light; who looks along it sees the sides of its fibres. By
+// reciprocity the share that is reflected is how bright it is in even light.
+TEST(Microgeometry, VelvetIsBrightAtItsRim) {
+    const Patch patch =
+        make_patch(make_microgeometry("fibres spacing=10 length=150 spread=20 fibres=12 sides=8"),
+                   surface_bsdf("blinn_phong kd=0.05 ks=0.3 n=10", Wavelengths::rgb_bands()));
+    double share[2];
+    int i = 0;
+    for (const double theta : {30., 85.}) {
+        MeasureOptions options{.bins = {2, 2}, .turned = true};
+        options.least_rays = options.most_rays = 8192;
+        IncidenceMeasurement m(DirectionCell::at(theta * std::numbers::pi / 180., 0.),
+                               options.bins);
+        measure(patch, options, m);
+        share[i++] = m.reflected(0).value;
+    }
+    EXPECT_GT(share[1], 2.5 * share[0]);
+}
+
 TEST(Microgeometry, SaysWhatIsWrong) {
     const std::pair<const char*, const char*> wrong[] = {
         {"gausian", "unknown microgeometry 'gausian'; did you mean 'gaussian'?"},
