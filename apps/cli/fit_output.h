@@ -16,7 +16,8 @@ struct FittedModel {
     std::string id;  ///< "ward variant=duer"
     std::optional<SumFit> fit;
     std::optional<FitErrors> held_out;
-    std::string why;  ///< there is no fit
+    std::string why;      ///< there is no fit
+    bool failed = false;  ///< though there could be one
 
     /// What models are ordered by: on held-out data where there are any.
     double error(FitMetric metric) const {

@@ -42,7 +42,7 @@ FitMetric metric_of(const FitArguments& o) {
     return FitMetric(word_among("--metric", "metric", o.metric, {"cosine", "log", "cuberoot"}));
 }
 
-/// All that have something to fit, or those that are named.
+/// All of the list, or those that are named.
 std::vector<FittedModel> models_asked_for(const std::string& text) {
     std::vector<ModelSpec> specs;
     if (text == "all") {
@@ -56,7 +56,8 @@ std::vector<FittedModel> models_asked_for(const std::string& text) {
     for (ModelSpec& spec : specs) {
         std::string id = spec.name;
         if (!spec.settings.empty()) id += " " + settings_text(spec.settings);
-        r.push_back({std::move(spec), std::move(id), {}, {}, {}});
+        r.push_back(
+            {.spec = std::move(spec), .id = std::move(id), .fit = {}, .held_out = {}, .why = {}});
     }
     return r;
 }
@@ -78,6 +79,7 @@ void fit_one(FittedModel& m, const FitData& data, const FitOptions& options, boo
         if (data.held_out) m.held_out = errors_of(m.fit->sum, *data.held_out);
     } catch (const RunError& e) {
         m.why = e.what();
+        m.failed = true;
     } catch (const InputError& e) {
         // Who asks for all models gets those that there are.
         if (!all) throw;
@@ -94,7 +96,7 @@ void print_table(const Target& target, const std::vector<FittedModel>& fitted, c
                    data.held_out->size());
     const std::size_t missing = data.fit.missing + (data.held_out ? data.held_out->missing : 0);
     if (missing) fmt::print("; {} have no value", missing);
-    fmt::print("\n\n{:<24}", "errors in % of a black surface's");
+    fmt::print("\n\n{:<32}", "errors in % of a black surface's");
     for (FitMetric metric : {FitMetric::cosine, FitMetric::log, FitMetric::cuberoot})
         fmt::print(" {:>17}", name_of(metric));
     fmt::print("\n{:<32}", "");
@@ -198,9 +200,7 @@ int run(const FitArguments& o) {
         say("nacre: interrupted: models without numbers were not fitted\n");
         return interrupted;
     }
-    const bool failed = o.models != "all" &&
-                        std::ranges::any_of(fitted, [](const FittedModel& m) { return !m.fit; });
-    return failed ? failure : success;
+    return std::ranges::any_of(fitted, &FittedModel::failed) ? failure : success;
 }
 
 }  // namespace

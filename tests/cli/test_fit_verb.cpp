@@ -101,6 +101,12 @@ TEST_F(LongFitVerb, AllModels) {
         else
             EXPECT_EQ(m["terms"].size(), 2u) << m["model"];
     }
+    const auto one =
+        nlohmann::json::parse(nacre("fit 'lambert reflectance=0.4' --json --quiet").out);
+    for (const auto& m : one["models"]) {
+        ASSERT_TRUE(m.contains("errors")) << m;
+        EXPECT_LT(m["errors"]["held_out"]["log"].get<double>(), 0.5) << m["model"];
+    }
 }
 
 TEST_F(FitVerb, WrongWords) {

@@ -161,11 +161,21 @@ TEST(FitSum, CubeRootsOfAMatteSurfaceHaveAClosedForm) {
 
 TEST(FitSum, LimitsAndBoundsOfSums) {
     const auto target = make_target("lambert reflectance=0.5");
-    const SumFit two = fit_of("ward ks=0.6", *target, {.lobes = 2});
+    // Neither of the lobes exceeds it alone.
+    const SumFit two = fit_of("ward ks=0.6", *make_target("lambert reflectance=0.2"), {.lobes = 2});
     EXPECT_TRUE(two.beyond.starts_with("ward: kd + ks = 1.")) << two.beyond;
     const SumFit channel = fit_of("oren_nayar", *target, {.by_channel = true});
     EXPECT_EQ(channel.at_limit,
               (std::vector<std::string>{"sigma (red)", "sigma (green)", "sigma (blue)"}));
+}
+
+// Of Lafortune's lobe c^n carries the height, and its weight may be tiny: it is not rounded away.
+TEST(FitSum, SmallWeightsOfHighLobesStay) {
+    const char* text = "lafortune kd=0.1 ks=1e-7 cx=-1.05 cy=-1.05 cz=1.05 n=400 norm=none";
+    const SumFit f =
+        fit_of("lafortune norm=none cx=-1.05 cy=-1.05 cz=1.05 n=400", *make_target(text));
+    EXPECT_LT(f.errors.log_relative, 1e-5);
+    EXPECT_TRUE(f.at_limit.empty());
 }
 
 TEST(FitSum, WrongLobes) {

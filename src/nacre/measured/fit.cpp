@@ -19,16 +19,25 @@ double rounded(double x, const Unknown& unknown) {
     return r;
 }
 
-/// Puts what comes within a millionth of an end of its range there; whether any does.
-bool snap_to_limits(const Unknown& unknown, std::span<double> x) {
-    bool any = false;
-    for (double& v : x)
-        for (double end : {unknown.low, unknown.high})
-            if (std::abs(v - end) <= 1e-6 * std::max(1., std::abs(v))) {
-                v = end;
-                any = true;
+/// Puts what comes within a millionth of an end of its range there, unless that makes the fit worse
+/// (a weight may be small and its lobe high); of each unknown whether any of it stands at an end.
+std::vector<bool> snap_to_limits(const FitProblem& fit, const TargetSamples& samples,
+                                 FitMetric metric, std::vector<double>& x) {
+    const Layout layout = fit.layout();
+    std::vector<bool> snapped(fit.unknowns.size());
+    for (std::size_t u = 0; u < fit.unknowns.size(); ++u)
+        for (int k = layout.first[u]; k < layout.first[u] + layout.count[u]; ++k)
+            for (double end : {fit.unknowns[u].low, fit.unknowns[u].high}) {
+                if (!(std::abs(x[k] - end) <= 1e-6 * std::max(1., std::abs(x[k])))) continue;
+                std::vector<double> at_end = x;
+                at_end[k] = end;
+                if (x[k] != end && cost_at(fit, at_end, samples, metric) >
+                                       cost_at(fit, x, samples, metric) * (1. + 1e-4) + 1e-10)
+                    continue;
+                x[k] = end;
+                snapped[u] = true;
             }
-    return any;
+    return snapped;
 }
 
 SettingValue fitted_value(const Unknown& unknown, std::span<const double> x) {
@@ -112,19 +121,19 @@ BandsFit fit_bands(const Evaluator& evaluator, const Settings& given, std::vecto
                .iterations = best.iterations,
                .converged = best.converged};
     const Layout layout = fit.layout();
+    const std::vector<bool> at_end = snap_to_limits(fit, samples, options.metric, best.x);
     for (std::size_t u = 0; u < fit.unknowns.size(); ++u) {
         const Unknown& unknown = fit.unknowns[u];
-        const std::span<double> x(&best.x[std::size_t(layout.first[u])],
-                                  std::size_t(layout.count[u]));
-        const bool limit = snap_to_limits(unknown, x);
+        const std::span<const double> x(&best.x[std::size_t(layout.first[u])],
+                                        std::size_t(layout.count[u]));
         const SettingValue value = fitted_value(unknown, x);
         Lobe& lobe = r.lobes[std::size_t(unknown.lobe)];
         if (unknown.name == matte) {
             r.fitted_matte.push_back({unknown.name, value});
-            r.matte_at_limit = limit;
+            r.matte_at_limit = at_end[u];
             continue;
         }
-        if (limit) lobe.at_limit.push_back(unknown.name);
+        if (at_end[u]) lobe.at_limit.push_back(unknown.name);
         // Lafortune's cx and cy move together, but no name means both.
         if (find_parameters(model.name, model.parameters, unknown.name).size() ==
             unknown.parameters.size())

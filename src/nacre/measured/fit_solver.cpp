@@ -115,6 +115,17 @@ std::vector<Unknown> active_unknowns(const FitProblem& fit, const TargetSamples&
     return kept;
 }
 
+double cost_at(const FitProblem& fit, const std::vector<double>& x, const TargetSamples& samples,
+               FitMetric metric) {
+    const FitResiduals all(fit, samples, metric);
+    std::vector<double> residuals(std::size_t(all.num_residuals()));
+    const double* at = x.data();
+    if (!all.Evaluate(&at, residuals.data(), nullptr)) return infinite;
+    double sum = 0.;
+    for (double r : residuals) sum += r * r;
+    return 0.5 * sum;
+}
+
 FitSolution solve_from(const FitProblem& fit, std::vector<std::vector<double>> starts,
                        const std::vector<int>& held, const TargetSamples& samples,
                        const TargetSamples& few, const FitOptions& options) {

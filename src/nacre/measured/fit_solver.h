@@ -20,6 +20,10 @@ std::vector<double> spread(const std::vector<Unknown>& unknowns, int bands,
 std::vector<Unknown> active_unknowns(const FitProblem& fit, const TargetSamples& samples,
                                      FitMetric metric);
 
+/// Half the squared relative error, as solutions have it.
+double cost_at(const FitProblem& fit, const std::vector<double>& x, const TargetSamples& samples,
+               FitMetric metric);
+
 /// A few steps from every start on `few` of the samples, then the best ones to their ends. The
 /// first steps go by the logarithmic metric, whatever is asked for: highlights leave it smooth.
 /// The very first leave the positions `held` as they are. Throws RunError if no start has finite
