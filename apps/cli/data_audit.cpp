@@ -5,12 +5,13 @@
 #include "apps/cli/coverage_picture.h"
 #include "apps/cli/data_verbs.h"
 #include "apps/cli/measured_page.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/plain_json.h"
 #include "apps/cli/plot.h"
 #include "nacre/measured/audit.h"
 #include "nacre/measured/audit_verdict.h"
 #include "nacre/measured/cuts.h"
-#include "nacre/measured/formats.h"
+#include "nacre/measured/open_measured.h"
 #include "nacre/text/whole_file.h"
 
 namespace nacre::cli {
@@ -177,8 +178,11 @@ Table lobes_plot(const Measured& data, const std::string& title) {
 }
 
 int run_data_audit(const DataAuditArguments& o) {
-    if (!o.output.empty()) make_output_folder(o.output);
-    const std::unique_ptr<Measured> data = read_measured(o.file);
+    const std::unique_ptr<Measured> data = open_measured(o.file);
+    if (!o.output.empty()) {
+        refuse_input_as_output(o.output, {o.file});
+        make_output_folder(o.output);
+    }
     const Audit found = audit(*data);
     const std::string title = fs::path(o.file).filename().string();
     ordered_json json = describe_measured(o.file, *data);

@@ -8,6 +8,7 @@
 #include "nacre/reflectance/registry.h"
 #include "nacre/scene/build.h"
 #include "nacre/scene/content_key.h"
+#include "nacre/scene/xml/find_file.h"
 #include "nacre/scene/xml/write_nodes.h"
 #include "nacre/text/names.h"
 #include "nacre/text/split_words.h"
@@ -22,10 +23,17 @@ bool is_file(const std::string& name) {
     std::error_code none;
     return fs::is_regular_file(name, none);
 }
+/// A measured file, or a folder of factors that has the name of no material.
+bool is_data(const std::string& name) {
+    std::error_code none;
+    return is_file(name) || (fs::is_directory(name, none) && !models().look(name) &&
+                             find_name(name, material_types()) < 0);
+}
 
 void add_file_fact(const std::string& name, std::map<std::string, std::string>& facts) {
-    if (const auto bytes = read_whole_file(name))
-        facts["file " + name] = fmt::format("{:016x}", hash_bytes(*bytes));
+    for (const fs::path& file : files_in(name))
+        if (const auto bytes = read_whole_file(file))
+            facts["file " + file.string()] = fmt::format("{:016x}", hash_bytes(*bytes));
 }
 
 constexpr std::string_view place = "--material";
@@ -97,9 +105,11 @@ void add_file_facts(const std::string& text, std::map<std::string, std::string>&
 SurfaceBsdf generated_material(const std::string& text, const Wavelengths& wavelengths,
                                std::map<std::string, std::string>& facts) {
     facts["material"] = text;
-    add_file_facts(text, facts);
-    if (is_file(text))
+    if (is_data(text)) {
+        add_file_fact(text, facts);
         return scene_material(material_node("measured", {{"filename", text}}), wavelengths);
+    }
+    add_file_facts(text, facts);
     const std::string_view all = text;
     const std::size_t begin = std::min(all.find_first_not_of(" \t"), all.size());
     const std::size_t end = std::min(all.find_first_of(" \t", begin), all.size());

@@ -203,6 +203,26 @@ TEST_F(DataVerb, ConvertRefusesAndWritesNothing) {
     EXPECT_EQ(read(folder_ / "paint.txt").substr(0, 12), "# blue paint");
 }
 
+/// What nacre factor writes is taken wherever a measured file is.
+TEST_F(DataVerb, FoldersOfFactorsAreData) {
+    ASSERT_EQ(nacre("factor 'lambert kd=0.3' -R 6 -J 1 -o wall").code, 0);
+    const auto info = nacre("data info wall --json");
+    ASSERT_EQ(info.code, 0) << info.err;
+    EXPECT_EQ(nlohmann::json::parse(info.out)["samples"], 36 * 36);
+    EXPECT_EQ(nacre("data eval wall --wi 0,0.6,0.8 --wo 0,0,1").out.substr(0, 14),
+              "r,g,b\n0.095492");
+    const auto audit = nacre("data audit wall --json");
+    ASSERT_EQ(audit.code, 0) << audit.err;
+    EXPECT_NEAR(nlohmann::json::parse(audit.out)["albedo"][0]["reflected"][1].get<double>(), 0.3,
+                1e-3);
+    const auto measured =
+        nacre("measure flat --material wall --bins 4x4 --noise 1% --quiet -o m.json");
+    ASSERT_EQ(measured.code, 0) << measured.err;
+    EXPECT_NE(read(folder_ / "m.json").find("g01.exr"), std::string::npos);
+    EXPECT_EQ(nacre("data audit none.csv -o audit").code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "audit")) << "a folder of nothing";
+}
+
 TEST_F(DataVerb, AuditSaysWhatCanBeTrusted) {
     std::ofstream table(folder_ / "wall.csv");
     table << "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
