@@ -215,9 +215,9 @@ int run(const FactorArguments& o) {
                 folder = o.output / fmt::format("{}-{}", folder_name(text), i);
         }
         refuse_input_as_output(folder, {o.targets.begin(), o.targets.end()});
-        make_output_folder(folder);
         folders.push_back(folder);
     }
+    for (const fs::path& folder : folders) make_output_folder(folder);
     std::vector<Factorisation> results;
     std::vector<SphereGroup> groups;
     ordered_json documents = ordered_json::array();

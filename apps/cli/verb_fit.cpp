@@ -166,13 +166,11 @@ int run(const FitArguments& o) {
     if (half) options.stride = 4;  // as many pairs as of the whole grid
     std::vector<FittedModel> fitted = models_asked_for(o.models);
     const std::unique_ptr<Target> target = make_target(o.target);
-    if (!o.output.empty()) {
-        refuse_input_as_output(o.output, {o.target});
-        make_output_folder(o.output);
-    }
+    if (!o.output.empty()) refuse_input_as_output(o.output, {o.target});
     const std::atomic<bool>& stop = interrupt_flag();
     options.stop = &stop;
     const FitData data = sample_halves(*target, half);
+    if (!o.output.empty()) make_output_folder(o.output);
     {
         std::size_t now = 0;
         StatusLine line(

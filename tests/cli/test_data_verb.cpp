@@ -219,8 +219,13 @@ TEST_F(DataVerb, FoldersOfFactorsAreData) {
         nacre("measure flat --material wall --bins 4x4 --noise 1% --quiet -o m.json");
     ASSERT_EQ(measured.code, 0) << measured.err;
     EXPECT_NE(read(folder_ / "m.json").find("g01.exr"), std::string::npos);
-    EXPECT_EQ(nacre("data audit none.csv -o audit").code, 2);
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "audit")) << "a folder of nothing";
+    // What is refused leaves no folder.
+    for (const char* refused :
+         {"data audit none.csv -o out", "fit 'lambert kd=0' --model ward -o out",
+          "factor lambert none.binary -R 6 -o out"}) {
+        EXPECT_EQ(nacre(refused).code, 2) << refused;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << refused;
+    }
 }
 
 TEST_F(DataVerb, AuditSaysWhatCanBeTrusted) {

@@ -5,6 +5,7 @@
 #include "nacre/goniometer/height_waves.h"
 #include "nacre/goniometer/microgeometry.h"
 #include "nacre/math/error.h"
+#include "nacre/math/normal_number.h"
 
 namespace nacre {
 namespace {

@@ -4,16 +4,13 @@
 #include <cstdint>
 #include <numbers>
 
+#include "nacre/math/normal_number.h"
+
 namespace nacre {
 
 namespace {
 constexpr double pi = std::numbers::pi;
 }  // namespace
-
-double normal_number(Random& random) {
-    const Vec2f u = random.next2();
-    return std::sqrt(-2. * std::log(1. - double(u.x))) * std::cos(2. * pi * double(u.y));
-}
 
 std::vector<double> sum_of_waves(int n, int most,
                                  const std::function<double(int a, int b)>& amplitude,

@@ -7,9 +7,6 @@
 
 namespace nacre {
 
-/// Of the normal distribution of mean 0 and variance 1.
-double normal_number(Random& random);
-
 /// Heights at n x n points of a period, row after row: for each pair of wave numbers (a, b) up to
 /// `most` along x and y a cosine and a sine wave of independent normal size, with the standard
 /// deviation `amplitude(a, b)`. That of (a, b) and of (-a, -b) is one wave; (0, 0) is left out.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "nacre/goniometer/height_waves.h"
 #include "nacre/math/error.h"
 #include "nacre/math/frame.h"
+#include "nacre/math/normal_number.h"
 
 namespace nacre {
 namespace {

@@ -248,7 +248,7 @@ AuditOutliers outliers_of(const Measured& data, const std::vector<Sample>& sampl
     return r;
 }
 
-/// By a lattice of pairs, uniform in the cosines' measure.
+/// Of random pairs by the cosine of both.
 double known_share(const Measured& data) {
     std::vector<double> out(std::size_t(data.info().channels));
     Random random(stream_key(13, 3));

@@ -1,6 +1,6 @@
 #include "nacre/measured/open_measured.h"
 
-#include "nacre/measured/factor/measured.h"
+#include "nacre/measured/factor/factored_measured.h"
 #include "nacre/measured/factor/textures.h"
 
 namespace nacre {

@@ -37,13 +37,13 @@ Vec3f refract_in(const Vec3f& outside, const Vec3f& n, float cos_outside, float 
     return (outside - n * cos_outside) * (1.f / eta) + n * cos_inside;
 }
 
-// Mean over bands.
+/// Mean of red, green and blue.
 float mean_extinction(const Medium& medium, const Point3f& p) {
     const Spectral s = medium.coefficients(p, Wavelengths::rgb_bands()).sigma_t;
     return (s[0] + s[1] + s[2]) / 3.f;
 }
 
-// And over a line.
+/// The same, and over the line from a to b.
 float mean_extinction(const Medium& medium, const Point3f& a, const Point3f& b) {
     constexpr int steps = 8;
     float sum = 0.f;
@@ -52,7 +52,7 @@ float mean_extinction(const Medium& medium, const Point3f& a, const Point3f& b) 
     return sum / steps;
 }
 
-// Over a box.
+/// The same, and over a box.
 float mean_extinction(const Medium& medium, const Box3f& box) {
     if (medium.homogeneous()) {
         const Vec3f sigma_t = medium.sigma_t->rgb();

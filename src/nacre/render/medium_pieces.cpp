@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
+
+#include "nacre/math/spread_point.h"
 
 #include "nacre/geometry/mesh_report.h"
 
@@ -28,16 +29,6 @@ bool holds(const Box3f& box, const Box3f& other) {
 
 bool has(std::span<const std::uint32_t> shapes, std::uint32_t shape) {
     return std::ranges::find(shapes, shape) != shapes.end();
-}
-
-/// Points of a plane-filling sequence (Roberts 2018, R2).
-Vec2f spread_point(int i) {
-    const auto part = [&](double step) {
-        const double x = 0.5 + step * i;
-        return static_cast<float>(x - std::floor(x));
-    };
-    return {std::min(part(0.7548776662466927), 0.999999f),
-            std::min(part(0.5698402909980532), 0.999999f)};
 }
 
 /// The first hit on one of `shapes`, whatever else is in between; the ray is moved to the last

@@ -30,4 +30,15 @@ class NestedBsdf {
     mutable const Bsdf* bsdf_ = nullptr;  // of one path, so of one thread
 };
 
+/// A smooth sample that one part of a mixture drew, as one of the mixture's: any part might have
+/// drawn it. If it holds for one lane, so does its value.
+template <class Mixture>
+std::optional<BsdfSample> drawn_by_all(const Mixture& mixture, BsdfSample s, const Vec3f& wo) {
+    s.pdf = mixture.pdf(s.wi, wo);
+    if (!(s.pdf > 0.f)) return std::nullopt;
+    const Spectral f = mixture.eval(s.wi, wo) / s.pdf;
+    s.weight = s.single_wavelength ? Spectral(f[0], 0.f, 0.f, 0.f) : f;
+    return s;
+}
+
 }  // namespace nacre

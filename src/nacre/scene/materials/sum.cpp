@@ -51,12 +51,7 @@ class SumBsdf final : public Bsdf {
             s->pdf *= share_[i];
             return s;
         }
-        // A smooth direction may come from any; if it holds for one lane, so does its value.
-        s->pdf = pdf(s->wi, wo);
-        if (!(s->pdf > 0.f)) return std::nullopt;
-        const Spectral f = eval(s->wi, wo) / s->pdf;
-        s->weight = s->single_wavelength ? Spectral(f[0], 0.f, 0.f, 0.f) : f;
-        return s;
+        return drawn_by_all(*this, *s, wo);
     }
     Spectral null_transmission(const Vec3f& wo) const override {
         Spectral t(0.f);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nacre/geometry/mesh_report.h"
+#include "nacre/math/spread_point.h"
 #include "nacre/scene/scene_builder.h"
 
 namespace nacre {
@@ -63,10 +64,7 @@ struct Contact {
     Contact(const RayScene& rays, std::uint32_t of, std::uint32_t other) {
         const float size = length(rays.bounds(of).diagonal());
         for (int i = 0; i < 128; ++i) {
-            // Additive recurrence of the plastic number: even, and the same every time.
-            const auto fraction = [](double x) { return float(x - std::floor(x)); };
-            const Vec2f u{fraction(0.5 + 0.7548776662 * i), fraction(0.5 + 0.5698402910 * i)};
-            const AreaSample at = rays.sample_area(of, u);
+            const AreaSample at = rays.sample_area(of, spread_point(i));
             const float near = 1e-5f * size;
             if (const auto hit = rays.closest(at.p, near, other)) {
                 const SurfacePoint there = rays.surface_point({at.p, at.n}, *hit);

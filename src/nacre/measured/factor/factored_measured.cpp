@@ -1,4 +1,4 @@
-#include "nacre/measured/factor/measured.h"
+#include "nacre/measured/factor/factored_measured.h"
 
 #include <fmt/format.h>
 
