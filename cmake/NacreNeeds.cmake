@@ -16,6 +16,20 @@ foreach(need Threads "TBB CONFIG" fmt "embree 3" "OpenEXR CONFIG" pugixml ZLIB n
 endforeach()
 set(CMAKE_MESSAGE_LOG_LEVEL "${nacre_log_level}")
 
+# OpenGL's and EGL's functions, loaded when first called: the program starts where there is no driver.
+if(NACRE_REALTIME)
+    find_path(NACRE_EPOXY_INCLUDE epoxy/egl.h)
+    find_library(NACRE_EPOXY_LIBRARY epoxy)
+    mark_as_advanced(NACRE_EPOXY_INCLUDE NACRE_EPOXY_LIBRARY)
+    if(NOT NACRE_EPOXY_INCLUDE OR NOT NACRE_EPOXY_LIBRARY)
+        list(APPEND NACRE_MISSING epoxy)
+    elseif(NOT TARGET nacre_epoxy)
+        add_library(nacre_epoxy INTERFACE IMPORTED)
+        target_include_directories(nacre_epoxy INTERFACE ${NACRE_EPOXY_INCLUDE})
+        target_link_libraries(nacre_epoxy INTERFACE ${NACRE_EPOXY_LIBRARY})
+    endif()
+endif()
+
 # OpenVDB's own find module brings find modules for other packages, which then fail in place of those packages' own
 # configuration (Ceres does). The library needs no more than this.
 find_path(NACRE_OPENVDB_INCLUDE openvdb/openvdb.h)

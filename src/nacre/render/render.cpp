@@ -1,6 +1,5 @@
 #include "nacre/render/render.h"
 
-#include <sys/resource.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -12,6 +11,7 @@
 
 #include "nacre/render/checkpoints.h"
 #include "nacre/render/noise.h"
+#include "nacre/render/render_clock.h"
 #include "nacre/render/render_job.h"
 #include "nacre/render/threads.h"
 
@@ -20,33 +20,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double process_cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// When a render that begins now has to end.
-Clock::time_point deadline_of(const RenderOptions& options) {
-    // A hundred years are for ever, and fit the clock.
-    constexpr double longest_s = 3e9;
-    if (!(options.timeout_s > 0)) return Clock::time_point::max();
-    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-                              std::min(options.timeout_s, longest_s)));
-}
-
 /// Drives a job's tiles on the threads at hand.
 class RenderLoop {
   public:
     RenderLoop(RenderJob& job, const RenderOptions& options)
-        : job_(job), options_(options), deadline_(deadline_of(options)) {}
+        : job_(job), options_(options), deadline_(deadline_after(options.timeout_s)) {}
 
     /// Returns whether all samples were rendered.
     bool run() {
@@ -191,7 +169,7 @@ RenderResult render(const Scene& scene, const Integrator& integrator,
 RenderResult prepare_and_render(const std::function<RenderPrepared(const Work& work)>& prepare,
                                 const FrameSettings& frame, const RenderOptions& options) {
     return with_threads(options.threads, [&] {
-        const Clock::time_point start = Clock::now(), deadline = deadline_of(options);
+        const Clock::time_point start = Clock::now(), deadline = deadline_after(options.timeout_s);
         const double cpu_start = process_cpu_seconds();
         RenderResult result{.film = Film(frame.film), .sampler = frame.sampler, .complete = false};
         RenderPrepared rendering;

@@ -73,7 +73,9 @@ struct TechniqueInput {
     std::uint64_t seed = 0;              ///< of what is drawn before the first frame
 };
 
-struct ShapeInput;  // path_technique.h
+struct ShapeInput;     // path_technique.h
+struct RealtimeInput;  // realtime/realtime_technique.h
+class RealtimeTechnique;
 
 struct TechniqueDescription {
     std::string_view name;   ///< in scene files and on the command line
@@ -92,11 +94,13 @@ struct TechniqueDescription {
     /// It is complete simulation: what others are measured against.
     bool simulates = false;
     /// Makes it for a scene all of whose translucent shapes are its own or, for techniques that
-    /// path tracing shows (path_technique.h), are others of that kind. Throws InputError, with the
+    /// path tracing shows (path_technique.h) or that are made in real time, others of that kind. Throws InputError, with the
     /// place in the file where there is one, for what it cannot do, and Stopped if `work` says so.
     TechniquePtr (*prepare)(const TechniqueInput& input, const Work& work) = nullptr;
     /// Of techniques that path tracing shows: makes one shape's matter. Else null.
     TranslucencyPtr (*below)(const ShapeInput& input) = nullptr;
+    /// Of techniques in real time: makes one shape's, on the device. Else null.
+    std::unique_ptr<RealtimeTechnique> (*realtime)(const RealtimeInput& input) = nullptr;
 };
 
 }  // namespace nacre

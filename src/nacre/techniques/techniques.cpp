@@ -9,6 +9,13 @@
 #include "nacre/text/split_words.h"
 
 namespace nacre {
+// Those on the GPU, if the library was built with them.
+#ifdef NACRE_REALTIME
+#define NACRE_REALTIME_TECHNIQUES(X) X(translucent_shadow_map)
+#else
+#define NACRE_REALTIME_TECHNIQUES(X)
+#endif
+
 // Each technique's line: the function NAME_technique() of its own file describes it.
 #define NACRE_TECHNIQUES(X) \
     X(simulation)           \
@@ -16,7 +23,8 @@ namespace nacre {
     X(local_scattering)     \
     X(surface_sampling)     \
     X(random_walk)          \
-    X(two_pass)
+    X(two_pass)             \
+    NACRE_REALTIME_TECHNIQUES(X)
 
 #define NACRE_DECLARE_TECHNIQUE(name) const TechniqueDescription& name##_technique();
 NACRE_TECHNIQUES(NACRE_DECLARE_TECHNIQUE)
@@ -71,8 +79,10 @@ TechniquePtr prepare(const Scene& scene, const RenderPlan& plan, const Work& wor
     for (const ShapeTechnique& s : plan.shapes) {
         if (!s.technique) continue;
         if (!technique) technique = s.technique;
-        if (technique == s.technique || (technique->below && s.technique->below)) continue;
-        const bool first = !technique->below;
+        if (technique == s.technique || (technique->below && s.technique->below) ||
+            (technique->realtime && s.technique->realtime))
+            continue;
+        const bool first = !technique->below && !technique->realtime;
         throw InputError(fmt::format(
             "{}'{}' {} the whole scene: give all translucent shapes this method, or none", s.place,
             first ? technique->name : s.technique->name,

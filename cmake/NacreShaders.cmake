@@ -1,0 +1,13 @@
+# Shaders (src/nacre/realtime/shaders) travel inside the library as strings, by the names of their files.
+set(shaders ${PROJECT_SOURCE_DIR}/src/nacre/realtime/shaders)
+file(GLOB files CONFIGURE_DEPENDS ${shaders}/*.glsl)
+list(SORT files)
+set(NACRE_SHADERS "")
+foreach(file IN LISTS files)
+    cmake_path(GET file FILENAME name)
+    file(READ ${file} text)
+    string(APPEND NACRE_SHADERS "        {\"${name}\", R\"glsl(${text})glsl\"},\n")
+endforeach()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+configure_file(${PROJECT_SOURCE_DIR}/src/nacre/realtime/gl/shader_files.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/shader_files.cpp @ONLY)
+target_sources(nacre_realtime PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/shader_files.cpp)

@@ -1,0 +1,62 @@
+#include "nacre/realtime/light_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nacre/spectrum/color.h"
+
+namespace nacre {
+namespace {
+
+/// The R2 sequence (Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences): evenly
+/// spread however many are taken.
+Vec2f spread(std::uint32_t i, std::uint32_t light) {
+    constexpr double a = 0.7548776662466927, b = 0.5698402909980532;
+    const double n = double(i) + 0.5, shift = 0.6180339887498949 * light;
+    const auto fraction = [](double x) { return float(x - std::floor(x)); };
+    return {std::min(fraction(0.5 + a * n + shift), 0.9999999f),
+            std::min(fraction(0.5 + b * n + shift), 0.9999999f)};
+}
+
+}  // namespace
+
+std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, int points,
+                                     std::uint32_t index) {
+    const Wavelengths bands = Wavelengths::rgb_bands();
+    float power = 0.f;
+    for (const LightPtr& light : scene.lights)
+        if (!light->is_delta()) power += light->power();
+    std::vector<LightPoint> result;
+    for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
+        const Light& light = *scene.lights[l];
+        int count = 1;
+        if (!light.is_delta() && power > 0.f)
+            count = std::max(1, int(std::lround(float(points) * light.power() / power)));
+        for (int i = 0; i < count; ++i) {
+            const LightSample s = light.sample(
+                middle, spread(index * std::uint32_t(count) + std::uint32_t(i), l), bands);
+            if (!(s.pdf > 0.f)) continue;
+            LightPoint p{.light = &light};
+            p.color = to_rgb(s.radiance, bands) * (1.f / (s.pdf * float(count)));
+            p.parallel = s.distance > 1e29f;
+            p.position = s.wi;
+            if (!p.parallel) {
+                p.position = middle + s.wi * s.distance;
+                p.distance2 = s.distance * s.distance;
+                // A lamp's surface there, whose light falls off to its sides.
+                if (!light.is_delta()) {
+                    const Ray back{p.position - s.wi * (1e-3f * s.distance), s.wi, 0.f,
+                                   2e-3f * s.distance};
+                    if (const auto hit = scene.rays.intersect(back)) {
+                        const SurfacePoint at = scene.rays.surface_point(back, *hit);
+                        if (scene.shapes[at.shape].light == &light) p.normal = at.ng;
+                    }
+                }
+            }
+            result.push_back(p);
+        }
+    }
+    return result;
+}
+
+}  // namespace nacre
