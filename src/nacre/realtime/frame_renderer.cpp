@@ -19,7 +19,7 @@ struct FrameRenderer::Part {
 
 namespace {
 
-constexpr int transmittance_steps = 256, falloff_size = 64;
+constexpr int transmittance_steps = 256;
 
 Mat4 inverse_of(const Mat4& m) {
     Transform::Matrix rows;
@@ -66,6 +66,7 @@ FrameRenderer::~FrameRenderer() = default;
 
 void FrameRenderer::changed(const Changes& what, const Work& work) {
     if (what.within({.view = true})) return;
+    if (what.light) falloffs_.clear();
     scene_.changed(what, work);
     // Techniques in real time precompute little; what they do hangs on all of these but the light.
     if (!what.within({.view = true, .light = true})) make_parts(work);
@@ -102,10 +103,10 @@ void FrameRenderer::resize(const View& view, int light_view) {
     };
     for (Texture* t : {&position_, &normal_, &lit_image_, &below_, &frame_})
         fit(*t, view.width, view.height, 1);
-    for (Texture* t : {&light_position_, &light_entered_})
+    for (Texture* t : {&light_position_, &light_entered_}) {
         fit(*t, light_view, light_view, levels_of(light_view));
-    if (!falloff_.is(falloff_size, falloff_size))
-        falloff_ = Texture(TexelFormat::r32f, falloff_size, falloff_size);
+        t->end_at_edge();
+    }
 }
 
 void FrameRenderer::see(const View& view) {
@@ -126,32 +127,24 @@ void FrameRenderer::see(const View& view) {
         .threads(view.width, view.height);
 }
 
-const Texture& FrameRenderer::falloff_of(const LightPoint& point, const View& view, bool& has) {
-    has = false;
-    if (point.parallel || !point.light->is_delta()) return falloff_;
-    // What the light gives along each direction, over what it gives towards the middle.
-    const Mat4 back = inverse_of(view.clip);
-    std::vector<float> values;
-    const Wavelengths bands = Wavelengths::rgb_bands();
-    const float whole = luminance(point.color) * point.distance2;
-    for (int y = 0; y < falloff_size; ++y)
-        for (int x = 0; x < falloff_size; ++x) {
-            const float c[4] = {(float(x) + 0.5f) * 2 / falloff_size - 1,
-                                (float(y) + 0.5f) * 2 / falloff_size - 1, 0.5f, 1.f};
-            float q[4];
-            for (std::size_t k = 0; k < 4; ++k)
-                q[k] = back[k] * c[0] + back[4 + k] * c[1] + back[8 + k] * c[2] + back[12 + k];
-            const Vec3f d = normalize(Vec3f(q[0], q[1], q[2]) * (1.f / q[3]) - point.position);
-            const float distance = std::sqrt(point.distance2);
-            const LightSample s =
-                point.light->sample(point.position + d * distance, {0.5f, 0.5f}, bands);
-            values.push_back(
-                s.pdf > 0.f ? luminance(to_rgb(s.radiance, bands)) * point.distance2 / whole : 0.f);
+std::vector<LightPoint> FrameRenderer::lights_at(const Point3f& middle,
+                                                 const FrameOptions& options) {
+    std::vector<LightPoint> points =
+        light_points(scene_.scene(), middle, options.light_points, options.index);
+    for (LightPoint& p : points) {
+        if (!p.light->is_delta() || p.parallel) continue;
+        const auto [found, is_new] = falloffs_.try_emplace(p.light);
+        Falloff& falloff = found->second;
+        if (is_new) {
+            falloff.shape = shape_of(*p.light);
+            if (!falloff.shape.even) {
+                falloff.texture = Texture(TexelFormat::r32f, LightShape::width, LightShape::height);
+                falloff.texture.upload(falloff.shape.falloff);
+            }
         }
-    const auto [low, high] = std::ranges::minmax(values);
-    has = high - low > 1e-3f;
-    if (has) falloff_.upload(values);
-    return falloff_;
+        p.color = falloff.shape.peak * (1.f / p.distance2);
+    }
+    return points;
 }
 
 void FrameRenderer::light(const View&, const CameraSurface& camera, Part& part,
@@ -165,8 +158,9 @@ void FrameRenderer::light(const View&, const CameraSurface& camera, Part& part,
                           ? parallel_view(point.position, middle, radius, options.light_view)
                           : light_view(point.position, middle, radius, options.light_view);
     lit_.see(gpu_, scene_, scene_.occluders(), view, visibility_, "light visibility");
-    bool has_falloff = false;
-    const Texture& falloff = falloff_of(point, view, has_falloff);
+    const auto found = falloffs_.find(point.light);
+    const bool has_falloff = found != falloffs_.end() && !found->second.shape.even;
+    const Texture& falloff = has_falloff ? found->second.texture : transmittance_;
     auto surface = gpu_.compute("light surface", gpu_.program("light_view.glsl"));
     set_light(surface, point, middle);
     surface.reads(0, scene_.positions())
@@ -235,8 +229,7 @@ const Texture& FrameRenderer::render(const View& view, const FrameOptions& optio
     if (!parts_.empty()) {
         Box3f box;
         for (const auto& part : parts_) box.extend(scene_.shapes()[part->part].bounds);
-        for (const LightPoint& point :
-             light_points(scene_.scene(), box.center(), options.light_points, options.index))
+        for (const LightPoint& point : lights_at(box.center(), options))
             for (const auto& part : parts_)
                 light(view, camera, *part, point, options, part == parts_.front(),
                       part == parts_.back());
@@ -250,7 +243,7 @@ const Texture& FrameRenderer::render(const View& view, const FrameOptions& optio
 std::size_t FrameRenderer::bytes() const {
     std::size_t sum = scene_.bytes() + camera_.bytes() + lit_.bytes();
     for (const Texture* t : {&position_, &normal_, &lit_image_, &below_, &frame_, &transmittance_,
-                             &light_position_, &light_entered_, &falloff_})
+                             &light_position_, &light_entered_})
         sum += t->bytes();
     for (const auto& part : parts_) sum += part->technique->bytes();
     return sum;

@@ -45,7 +45,7 @@ class FrameRenderer {
     void light(const View& view, const CameraSurface& camera, Part& part, const LightPoint& point,
                const FrameOptions& options, bool first, bool last);
     void compose(const View& view);
-    const Texture& falloff_of(const LightPoint& point, const View& view, bool& has);
+    std::vector<LightPoint> lights_at(const Point3f& middle, const FrameOptions& options);
 
     Gpu& gpu_;
     std::vector<ShapeTechnique> techniques_;
@@ -55,7 +55,11 @@ class FrameRenderer {
     Visibility camera_, lit_;
     Texture position_, normal_, lit_image_, below_, frame_, transmittance_;
     Texture light_position_, light_entered_;
-    Texture falloff_;
+    struct Falloff {
+        LightShape shape;
+        Texture texture;  ///< unless it is even
+    };
+    std::map<const Light*, Falloff> falloffs_;  ///< of lights without extent; until lights change
 };
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "nacre/spectrum/color.h"
 
@@ -20,6 +21,34 @@ Vec2f spread(std::uint32_t i, std::uint32_t light) {
 
 }  // namespace
 
+LightShape shape_of(const Light& light) {
+    constexpr float pi = std::numbers::pi_v<float>;
+    const Wavelengths bands = Wavelengths::rgb_bands();
+    const Point3f from = light.bounds().center();
+    const auto intensity = [&](const Vec3f& d) {
+        const LightSample s = light.sample(from + d, {0.5f, 0.5f}, bands);
+        return s.pdf > 0.f ? to_rgb(s.radiance, bands) : Vec3f{};
+    };
+    LightShape shape;
+    float low = 1e30f, high = 0.f;
+    for (int y = 0; y < LightShape::height; ++y)
+        for (int x = 0; x < LightShape::width; ++x) {
+            const float phi = 2.f * pi * (float(x) + 0.5f) / LightShape::width,
+                        theta = pi * (float(y) + 0.5f) / LightShape::height;
+            const Vec3f rgb = intensity({std::sin(theta) * std::sin(phi), std::cos(theta),
+                                         std::sin(theta) * std::cos(phi)});
+            const float l = luminance(rgb);
+            if (l > high) shape.peak = rgb;
+            low = std::min(low, l);
+            high = std::max(high, l);
+            shape.falloff.push_back(l);
+        }
+    shape.even = high - low <= 1e-4f * high;
+    for (float& l : shape.falloff) l = high > 0.f ? l / high : 0.f;
+    if (shape.even) shape.falloff.clear();
+    return shape;
+}
+
 std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, int points,
                                      std::uint32_t index) {
     const Wavelengths bands = Wavelengths::rgb_bands();
@@ -29,6 +58,12 @@ std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, 
     std::vector<LightPoint> result;
     for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
         const Light& light = *scene.lights[l];
+        if (light.is_delta() && !light.bounds().empty()) {
+            const Point3f at = light.bounds().center();
+            result.push_back(
+                {.light = &light, .position = at, .distance2 = length_squared(middle - at)});
+            continue;
+        }
         int count = 1;
         if (!light.is_delta() && power > 0.f)
             count = std::max(1, int(std::lround(float(points) * light.power() / power)));
@@ -44,13 +79,14 @@ std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, 
                 p.position = middle + s.wi * s.distance;
                 p.distance2 = s.distance * s.distance;
                 // A lamp's surface there, whose light falls off to its sides.
-                if (!light.is_delta()) {
-                    const Ray back{p.position - s.wi * (1e-3f * s.distance), s.wi, 0.f,
-                                   2e-3f * s.distance};
-                    if (const auto hit = scene.rays.intersect(back)) {
-                        const SurfacePoint at = scene.rays.surface_point(back, *hit);
-                        if (scene.shapes[at.shape].light == &light) p.normal = at.ng;
-                    }
+                const Ray back{p.position - s.wi * (1e-3f * s.distance), s.wi, 0.f,
+                               2e-3f * s.distance};
+                if (const auto hit = scene.rays.intersect(back)) {
+                    const SurfacePoint at = scene.rays.surface_point(back, *hit);
+                    // A ball gives the same to all sides, whichever of its points stand for it.
+                    const Primitive* primitive = scene.rays.primitive(at.shape);
+                    const bool ball = primitive && std::holds_alternative<Sphere>(*primitive);
+                    if (scene.shapes[at.shape].light == &light && !ball) p.normal = at.ng;
                 }
             }
             result.push_back(p);

@@ -29,6 +29,7 @@ namespace nacre {
 namespace {
 
 enum class Placement { distance, paper };
+enum class Pattern { rings, nested };
 
 class TranslucentShadowMap final : public RealtimeTechnique {
   public:
@@ -37,6 +38,8 @@ class TranslucentShadowMap final : public RealtimeTechnique {
           scene_(in.scene),
           part_(in.part),
           placement_(in.options.choice<Placement>("placement")),
+          pattern_kind_(in.options.choice<Pattern>("pattern")),
+          blocks_(4 * in.options.whole("blocks")),
           exit_scale_(in.exit_scale()),
           profiles_(in) {
         if (placement_ == Placement::paper && in.profile != "dipole")
@@ -67,6 +70,15 @@ class TranslucentShadowMap final : public RealtimeTechnique {
         auto pass = gpu_.compute("translucent shadow map",
                                  gpu_.program("translucent_shadow_map.glsl",
                                               placement_ == Placement::paper ? "PAPER" : ""));
+        // Squares that double until they hold the whole picture, wherever in it the point is.
+        const float picture =
+            light.view.pixel * float(light.view.width) *
+            (light.view.parallel ? 1.f
+                                 : length(scene_.shapes()[part_].bounds.center() - light.view.eye));
+        const int levels =
+            pattern_kind_ == Pattern::nested
+                ? std::max(1, int(std::ceil(std::log2(2.f * picture / (7.f * square_)))))
+                : 0;
         profiles_.bind(pass, 5, profile_);
         const Mat4& m = light.view.clip;
         const Vec3f across = normalize(Vec3f(m[0], m[4], m[8]));
@@ -84,6 +96,8 @@ class TranslucentShadowMap final : public RealtimeTechnique {
             .set("light_color", light.light.color * exit_scale_)
             .set("part", int(part_))
             .set("rings", rings_)
+            .set("levels", levels)
+            .set("blocks", blocks_)
             .set("square", square_)
             .set("depth_scale", depth_scale_)
             .set("depth_range", depth_range_);
@@ -110,6 +124,8 @@ class TranslucentShadowMap final : public RealtimeTechnique {
     const GpuScene& scene_;
     std::uint32_t part_;
     Placement placement_;
+    Pattern pattern_kind_;
+    int blocks_;
     float exit_scale_;
     BandProfiles profiles_;
     std::array<std::array<float, 4>, 3> dipole_{};  // z_r, z_v, sigma_tr, albedo / 4 pi
@@ -131,18 +147,30 @@ const TechniqueDescription& translucent_shadow_map_technique() {
          .how = "in real time: the light's picture of the object holds what enters; each visible "
                 "point sums it by a dense square and a sparse pattern of taps that follows the "
                 "profile",
-         .parameters = {profile_parameter(),
-                        exit_fresnel_parameter(),
-                        choice_parameter(
-                            "placement", "where the sources of the dipole stand",
-                            {{"distance", "R of the distance between the points"},
-                             {"paper", "along the normal where light enters, as in the paper"}}),
-                        {.name = "taps",
-                         .meaning = "taps of the sparse pattern, in rings of 7",
-                         .kind = ParameterKind::integer,
-                         .low = 7,
-                         .high = 70,
-                         .otherwise = 21}},
+         .parameters =
+             {profile_parameter(),
+              exit_fresnel_parameter(),
+              choice_parameter("placement", "where the sources of the dipole stand",
+                               {{"distance", "R of the distance between the points"},
+                                {"paper", "along the normal where light enters, as in the paper"}}),
+              choice_parameter(
+                  "pattern", "how what is not near is summed",
+                  {{"rings", "few taps that follow the profile"},
+                   {"nested",
+                    "the whole picture, by blocks that grow with distance: slower, nearly exact"}}),
+              {.name = "blocks",
+               .meaning = "blocks of nested squares along a quarter of their side",
+               .kind = ParameterKind::integer,
+               .low = 1,
+               .high = 8,
+               .otherwise = 2},
+              {.name = "taps",
+               .meaning = "taps of the rings, 7 each",
+               .kind = ParameterKind::integer,
+               .low = 7,
+               .high = 70,
+               .otherwise = 21}},
+         .variants = "pattern=rings|pattern=nested",
          .realtime = [](const RealtimeInput& in) -> std::unique_ptr<RealtimeTechnique> {
              return std::make_unique<TranslucentShadowMap>(in);
          }});

@@ -3,31 +3,26 @@
 namespace nacre {
 namespace {
 
-/// Entries (triangle, tile of 64 x 64 pixels) of large triangles. A triangle that finds no room is
-/// drawn by its own thread: slower, not wrong.
-constexpr std::uint32_t tile_capacity = 1u << 18;
-constexpr std::size_t tile_header = 8;  // numbers before the entries: count, workgroups, ...
+/// Numbers before the entries (triangle, tile of 64 x 64 pixels): count, workgroups, ...
+constexpr std::size_t tile_header = 8;
 
 }  // namespace
 
-Visibility::Visibility() = default;
-Visibility::~Visibility() = default;
-Visibility::Visibility(Visibility&&) noexcept = default;
-Visibility& Visibility::operator=(Visibility&&) noexcept = default;
-
 void Visibility::see(Gpu& gpu, const GpuScene& scene, std::uint32_t triangles, const View& view,
-                     VisibilityMethod, std::string_view pass) {
+                     VisibilityMethod method, std::string_view pass) {
     if (!depth_.is(view.width, view.height)) {
         depth_ = Texture(TexelFormat::r32ui, view.width, view.height);
         ids_ = Texture(TexelFormat::r32ui, view.width, view.height);
+        drop_target();
     }
+    if (method == VisibilityMethod::raster) return see_by_raster(gpu, scene, triangles, view, pass);
     see_by_compute(gpu, scene, triangles, view, pass);
 }
 
 void Visibility::see_by_compute(Gpu& gpu, const GpuScene& scene, std::uint32_t triangles,
                                 const View& view, std::string_view pass) {
     if (!tiles_.bytes())
-        tiles_ = Buffer((tile_header + 2 * tile_capacity) * sizeof(std::uint32_t), nullptr);
+        tiles_ = Buffer((tile_header + 2 * tile_capacity_) * sizeof(std::uint32_t), nullptr);
     gpu.compute(pass, gpu.program("visibility_clear.glsl"))
         .writes(0, depth_)
         .writes(1, ids_)
@@ -41,7 +36,7 @@ void Visibility::see_by_compute(Gpu& gpu, const GpuScene& scene, std::uint32_t t
                 .writes(0, depth_)
                 .writes(1, ids_)
                 .set("clip", view.clip)
-                .set("capacity", tile_capacity)
+                .set("capacity", tile_capacity_)
                 .set("triangles", triangles);
             return p;
         };

@@ -72,6 +72,13 @@ const Program& Gpu::program(std::string_view file, std::string_view defines) {
     return *programs_.emplace_back(key, std::make_unique<Program>(file, defines)).second;
 }
 
+const Program& Gpu::program(const Program::Raster& files) {
+    const std::string key = fmt::format("{} {}", files.vertex, files.fragment);
+    for (const auto& [name, program] : programs_)
+        if (name == key) return *program;
+    return *programs_.emplace_back(key, std::make_unique<Program>(files)).second;
+}
+
 ComputePass Gpu::compute(std::string_view pass, const Program& program) {
     return {*this, pass, program};
 }

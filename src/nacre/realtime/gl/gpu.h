@@ -32,8 +32,17 @@ class Gpu {
     const GpuDevice& device() const { return device_; }
     /// Compiled when first asked for.
     const Program& program(std::string_view file, std::string_view defines = "");
+    const Program& program(const Program::Raster& files);
     /// A pass of a compute program: say what it reads and writes, then dispatch.
     ComputePass compute(std::string_view pass, const Program& program);
+
+    /// Anything else as a pass: timed, and its errors named.
+    template <class F>
+    void pass(std::string_view name, F&& work) {
+        begin_pass(name);
+        work();
+        end_pass();
+    }
 
     /// Passes are timed from here on until `times`: by timer queries on hardware, by waiting for
     /// each pass in software, whose queries read nothing. Without it nothing waits.

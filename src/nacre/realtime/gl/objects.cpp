@@ -76,6 +76,13 @@ std::size_t Texture::bytes() const {
     return texels * std::size_t(words_of(format_).bytes);
 }
 
+void Texture::end_at_edge() {
+    constexpr float nothing[4] = {};
+    glTextureParameteri(name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTextureParameterfv(name(), GL_TEXTURE_BORDER_COLOR, nothing);
+}
+
 void Texture::upload(std::span<const float> texels) {
     const FormatWords words = words_of(format_);
     if (texels.size() != std::size_t(width_) * height_ * words.count)

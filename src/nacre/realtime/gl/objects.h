@@ -48,6 +48,8 @@ class Texture {
     bool is(int width, int height) const { return width == width_ && height == height_; }
     std::size_t bytes() const;  ///< with all levels
 
+    /// What is sampled beyond the edge is 0, not the edge's texel.
+    void end_at_edge();
     /// Level 0 from floats, as many components a texel as the format has; top row first is up to
     /// who reads it.
     void upload(std::span<const float> texels);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <utility>
 
 #include "nacre/math/error.h"
 #include "nacre/text/split_words.h"
@@ -77,41 +77,47 @@ std::string shader_source(std::string_view file, std::string_view defines) {
 
 Program::Program(std::string_view file, std::string_view defines)
     : title_(defines.empty() ? std::string(file) : fmt::format("{} ({})", file, defines)) {
-    std::vector<std::string> files;
-    const std::string source = source_of(file, defines, files);
-    const auto fail = [&](const std::string& log) {
+    make({{GL_COMPUTE_SHADER, file}}, defines);
+    GLint size[3];
+    glGetProgramiv(name(), GL_COMPUTE_WORK_GROUP_SIZE, size);
+    group_ = {size[0], size[1], size[2]};
+}
+
+Program::Program(const Raster& files)
+    : title_(fmt::format("{} and {}", files.vertex, files.fragment)) {
+    make({{GL_VERTEX_SHADER, files.vertex}, {GL_FRAGMENT_SHADER, files.fragment}}, "");
+}
+
+void Program::make(std::initializer_list<Stage> stages, std::string_view defines) {
+    // Owned from the start: it goes when something is thrown.
+    name_ = GlName(glCreateProgram());
+    const auto fail = [&](const std::vector<std::string>& files, const std::string& log) {
+        if (const GLuint program = std::exchange(name_, GlName()).get()) glDeleteProgram(program);
         std::string numbers;
         for (std::size_t i = 0; i < files.size(); ++i)
             numbers += fmt::format("{}{} is {}", i ? ", " : "", i, files[i]);
         throw RunError(fmt::format("the shader {} cannot be compiled by this driver ({}): {}",
                                    title_, numbers, log));
     };
-    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    const char* text = source.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    GLint compiled = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    if (!compiled) {
-        const std::string log = log_of(shader, glGetShaderiv, glGetShaderInfoLog);
-        glDeleteShader(shader);
-        fail(log);
+    std::vector<std::string> files;
+    for (const Stage& stage : stages) {
+        files.clear();
+        const std::string source = source_of(stage.file, defines, files);
+        const GLuint shader = glCreateShader(stage.type);
+        const char* text = source.c_str();
+        glShaderSource(shader, 1, &text, nullptr);
+        glCompileShader(shader);
+        GLint compiled = 0;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+        const std::string log = compiled ? "" : log_of(shader, glGetShaderiv, glGetShaderInfoLog);
+        glAttachShader(name(), shader);
+        glDeleteShader(shader);  // goes with the program
+        if (!compiled) fail(files, log);
     }
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, shader);
-    glLinkProgram(program);
-    glDeleteShader(shader);
+    glLinkProgram(name());
     GLint linked = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked) {
-        const std::string log = log_of(program, glGetProgramiv, glGetProgramInfoLog);
-        glDeleteProgram(program);
-        fail(log);
-    }
-    name_ = GlName(program);
-    GLint size[3];
-    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
-    group_ = {size[0], size[1], size[2]};
+    glGetProgramiv(name(), GL_LINK_STATUS, &linked);
+    if (!linked) fail(files, log_of(name(), glGetProgramiv, glGetProgramInfoLog));
 }
 
 Program::~Program() {

@@ -28,7 +28,7 @@ void main() {
                            b.z * normals[index.z].xyz);
         vec3 to_light;
         float e = irradiance_at(position.xyz, to_light);
-        if (has_falloff != 0) e *= texture(falloff, (vec2(pixel) + 0.5) / vec2(size)).x;
+        if (has_falloff != 0) e *= textureLod(falloff, sky_place(-to_light), 0).x;
         // A texel's beam has this cross-section where it meets the surface: of the surface's area
         // and its cosine only the product counts.
         float area = pixel_width * pixel_width;

@@ -19,18 +19,16 @@ float distance_of(float z) {
     return light_parallel != 0 ? (1 - z) * depth_range : depth_range / max(z, 1e-30);
 }
 // Share of the light that comes to p: by four texels, as near as they are.
-float visible(vec3 p, vec3 n, float cosine, out float shape) {
+float visible(vec3 p, vec3 n, float cosine) {
     vec4 c = light_clip * vec4(p, 1);
     float w = light_parallel != 0 ? 1 : c.w;
     float texel = pixel_width * w;
     // Up from the surface by a texel, more where the light grazes it.
     float slope = min(sqrt(max(0, 1 - cosine * cosine)) / max(cosine, 0.1), 6);
     c = light_clip * vec4(p + n * texel * (0.7 + 0.5 * slope), 1);
-    shape = 1;
     if (c.w <= 0) return 1;
     vec2 u = c.xy / c.w * 0.5 + 0.5;
     if (any(lessThan(u, vec2(0))) || any(greaterThan(u, vec2(1)))) return 1;
-    if (has_falloff != 0) shape = texture(falloff, u).x;
     float own = distance_of(c.z / c.w) - 0.3 * texel;
     vec2 at = u * vec2(textureSize(light_depth, 0)) - 0.5;
     ivec2 base = ivec2(floor(at));
@@ -56,18 +54,19 @@ void main() {
     if (kind == lamp || (kind == translucent && own != part)) return;
     vec3 n = texelFetch(normal_picture, pixel, 0).xyz, to_light;
     float e = irradiance_at(position.xyz, to_light);
-    float cosine = dot(n, to_light), shape;
+    if (has_falloff != 0) e *= textureLod(falloff, sky_place(-to_light), 0).x;
+    float cosine = dot(n, to_light);
     vec4 before = imageLoad(lit_image, pixel);
-    float seen = cosine > 0 && e > 0 ? visible(position.xyz, n, cosine, shape) : 0;
+    float seen = cosine > 0 && e > 0 ? visible(position.xyz, n, cosine) : 0;
     if (kind == translucent) {
         if (seen > 0)
-            before.rgb += light_color * (e * shape * seen * cosine *
+            before.rgb += light_color * (e * seen * cosine *
                                          transmittance(transmittance_table, part, cosine));
     } else {
         float rest = (first_part != 0 ? 1 : before.a) * seen;
         before.a = rest;
         if (last_part != 0 && rest > 0)
-            before.rgb += light_color * materials[own].color.rgb * (e * shape * rest * cosine / pi);
+            before.rgb += light_color * materials[own].color.rgb * (e * rest * cosine / pi);
     }
     imageStore(lit_image, pixel, before);
 }

@@ -9,7 +9,7 @@ layout(binding = 5) uniform sampler2D profile_table;
 #include "profile.glsl"
 uniform mat4 light_clip;
 uniform vec3 across, down, light_color;  // the light picture's axes in space
-uniform int part, rings, light_parallel;
+uniform int part, rings, levels, blocks;
 uniform float pixel_width, square, depth_scale, depth_range;
 uniform vec4 dipole[3];  // z_r, z_v, sigma_tr, albedo / 4 pi
 
@@ -78,7 +78,23 @@ void main() {
     vec3 near = vec3(0);
     for (int j = -3; j <= 3; ++j)
         for (int i = -3; i <= 3; ++i) near += tap(square * vec2(i, j), square * square);
-    vec3 sum = near * row(0, column).rgb;
+    near *= row(0, column).rgb;
+    if (levels > 0) {
+        float width = 7 * square;  // of the square that is summed
+        for (int k = 0; k < levels; ++k) {
+            float block = 2 * width / float(blocks);
+            int low = blocks / 4, high = blocks - low - 1;
+            for (int j = 0; j < blocks; ++j)
+                for (int i = 0; i < blocks; ++i)
+                    if (i < low || i > high || j < low || j > high)
+                        near += tap((vec2(i, j) - 0.5 * float(blocks - 1)) * block, block * block);
+            width *= 2;
+        }
+        vec4 before = imageLoad(below_image, pixel);
+        imageStore(below_image, pixel, before + vec4(light_color * near, 0));
+        return;
+    }
+    vec3 sum = near;
     for (int k = 0; k < rings; ++k) {
         vec4 ring = row(1 + 2 * k, column);
         vec3 taps = vec3(0);

@@ -27,17 +27,28 @@ float exact_dot(vec3 e, vec2 p) {
     return r;
 }
 
+vec4 exact_clip(uint corner) {
+    vec3 p = positions[corner].xyz;
+    precise vec4 x = clip[0] * p.x, y = clip[1] * p.y, z = clip[2] * p.z;
+    precise vec4 xy = x + y, zw = z + clip[3];
+    precise vec4 r = xy + zw;
+    return r;
+}
+
+// All that decides on a pixel is computed alike, to the last bit, in every program that asks: depths
+// are compared for being equal.
 Edges edges_of(uint triangle, vec2 size) {
     uvec4 index = indices[triangle];
-    vec4 c0 = clip * vec4(positions[index.x].xyz, 1), c1 = clip * vec4(positions[index.y].xyz, 1),
-         c2 = clip * vec4(positions[index.z].xyz, 1);
+    vec4 c0 = exact_clip(index.x), c1 = exact_clip(index.y), c2 = exact_clip(index.z);
     vec3 scale = vec3(0.5 * size, 1);
     vec3 v0 = c0.xyw * scale, v1 = c1.xyw * scale, v2 = c2.xyw * scale;
     Edges t;
     t.e0 = exact_cross(v1, v2);
     t.e1 = exact_cross(v2, v0);
     t.e2 = exact_cross(v0, v1);
-    t.det = dot(v0, t.e0);
+    precise vec3 products = v0 * t.e0;
+    precise float det = (products.x + products.y) + products.z;
+    t.det = det;
     t.z = vec3(c0.z, c1.z, c2.z);
     float nearest = min(min(c0.w, c1.w), c2.w), farthest = max(max(c0.w, c1.w), c2.w);
     t.low = -0.5 * size;
@@ -56,7 +67,10 @@ Edges edges_of(uint triangle, vec2 size) {
 bool covers(Edges t, vec2 p, out float depth) {
     vec3 e = vec3(exact_dot(t.e0, p), exact_dot(t.e1, p), exact_dot(t.e2, p)) * sign(t.det);
     float det = abs(t.det);
-    depth = dot(e, t.z) / det;
+    precise vec3 products = e * t.z;
+    precise float sum = (products.x + products.y) + products.z;
+    precise float z = sum / det;
+    depth = z;
     // The sum is 1/w: negative behind the eye.
     return min(min(e.x, e.y), e.z) >= 0 && e.x + e.y + e.z > 0 && depth > 0 && depth <= 1;
 }
