@@ -150,6 +150,26 @@ TEST_F(MissingLight, FollowsTheScenesOwnWarnings) {
     EXPECT_EQ(all[1], missing_light(s, plan_of(s))[0]);
 }
 
+TEST_F(MissingLight, OfFramesInRealTime) {
+    const std::string glass = xml::dielectric(1.5), metal = xml::bsdf("roughconductor"),
+                      jade = xml::dielectric(1.5) + grey_matter;
+    const auto said = [&](const std::string& body, ColorMode mode = ColorMode::rgb_bands) {
+        const Scene s = scene(xml::integrator("path") + body, mode);
+        for (const TechniqueDescription* t : techniques())
+            if (t->realtime) return missing_light(s, plan_of(s, {std::string(t->name)}));
+        return std::vector<std::string>{"built without"};
+    };
+    const auto some = said(point_light + named("a", jade) + named("b", xml::bsdf("diffuse")));
+    if (some[0] == "built without") GTEST_SKIP() << "built without frames in real time";
+    const std::string always =
+        "frames in real time leave out the light that one surface sends to another";
+    EXPECT_EQ(some, std::vector{always});
+    EXPECT_EQ(said(point_light + named("a", jade) + named("b", glass) + named("c", metal)),
+              std::vector{always + "; 'b' drawn as opaque; 'c' drawn without highlights"});
+    EXPECT_EQ(said(point_light + named("a", jade), ColorMode::spectral),
+              std::vector{always + "; wavelengths are those of red, green and blue"});
+}
+
 TEST_F(MissingLight, MakesNoTruth) {
     const std::string jade = xml::dielectric(1.5) + grey_matter;
     const std::string tinted =

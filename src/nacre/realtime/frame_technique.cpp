@@ -1,6 +1,7 @@
 // Frames in real time as pictures of a film: each sample of all pixels is one frame, shifted by the
 // filter's draw and lit from other places on the lamps. So a picture of many samples is what the
 // technique comes to, without steps at edges, and its noise can be told.
+#include <charconv>
 #include <chrono>
 #include <cmath>
 
@@ -28,7 +29,10 @@ class FrameTechnique final : public Technique {
         const HeadlessContext::Use use(context_);
         gpu_ = std::make_unique<Gpu>();
         for (const ShapeTechnique& s : input.shapes)
-            if (s.technique) name_ = s.technique->name;
+            if (s.technique) {
+                name_ = s.technique->name;
+                options_ = frame_options_of(s.options);
+            }
         renderer_ = std::make_unique<FrameRenderer>(*gpu_, scene_, input.shapes, work);
         gpu_->finish();
         name_ += " on " + gpu_->device().text();
@@ -55,12 +59,13 @@ class FrameTechnique final : public Technique {
     const Scene& scene_;
     HeadlessContext context_;
     std::string name_;
+    FrameOptions options_;
     std::unique_ptr<Gpu> gpu_;
     std::unique_ptr<FrameRenderer> renderer_;
 };
 
-RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOptions& options) {
-    const Clock::time_point start = Clock::now(), deadline = deadline_after(options.timeout_s);
+RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOptions& rendering) {
+    const Clock::time_point start = Clock::now(), deadline = deadline_after(rendering.timeout_s);
     const double cpu = process_cpu_seconds();
     if (!frame.camera) throw InputError("the scene has no camera; add a <sensor>");
     if (frame.film.quantity == FilmQuantity::illuminance)
@@ -72,11 +77,11 @@ RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOpti
         throw InputError(
             fmt::format("{} samples a pixel make no picture; ask for at least 1", samples));
     std::uint32_t done = 0;
-    if (options.begun) {
-        result.film.merge(*options.begun);
+    if (rendering.begun) {
+        result.film.merge(*rendering.begun);
         done = result.film.drawn(0, 0);
     }
-    if (options.halves)
+    if (rendering.halves)
         for (int i = 0; i < 2; ++i) result.halves.emplace_back(frame.film);
     const Filter filter(frame.film.filter);
     // Other seeds begin elsewhere in the sequences.
@@ -85,7 +90,7 @@ RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOpti
     double checkpoint = 0;
     std::vector<PassTime> passes;  // of the last frame
     for (; done < total; ++done) {
-        if ((options.stop && options.stop->load()) || Clock::now() >= deadline) {
+        if ((rendering.stop && rendering.stop->load()) || Clock::now() >= deadline) {
             result.complete = false;
             break;
         }
@@ -95,29 +100,31 @@ RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOpti
             camera_view(*frame.camera, frame.film, at.offset, renderer_->scene().bounds());
         const bool last = done + 1 == total;
         if (last) gpu_->begin_timing();
-        const Texture& picture = renderer_->render(view, {.index = first + done});
+        FrameOptions options = options_;
+        options.index = first + done;
+        const Texture& picture = renderer_->render(view, options);
         if (last) passes = gpu_->end_timing();
         const std::vector<float> rgba = picture.read();
         gpu_->check_errors();
         add(result.film, rgba, done, at.weight);
-        if (options.halves) add(result.halves[done % 2], rgba, done, at.weight);
+        if (rendering.halves) add(result.halves[done % 2], rgba, done, at.weight);
         const double seconds = seconds_since(start);
-        if (options.progress) {
+        if (rendering.progress) {
             const std::uint64_t pixels =
                 std::uint64_t(result.film.width()) * std::uint64_t(result.film.height());
-            options.progress({(done + 1) * pixels, total * pixels, seconds});
+            rendering.progress({(done + 1) * pixels, total * pixels, seconds});
         }
-        if (options.checkpoint && seconds - checkpoint >= options.checkpoint_s) {
+        if (rendering.checkpoint && seconds - checkpoint >= rendering.checkpoint_s) {
             checkpoint = seconds;
-            options.checkpoint({result.film, {}, seconds, process_cpu_seconds() - cpu});
+            rendering.checkpoint({result.film, {}, seconds, process_cpu_seconds() - cpu});
         }
-        if (options.noise > 0 && int(done + 1) >= least_noise_samples &&
-            film_noise(result.film) <= options.noise) {
+        if (rendering.noise > 0 && int(done + 1) >= least_noise_samples &&
+            film_noise(result.film) <= rendering.noise) {
             result.sampler.samples = int(++done);
             break;
         }
     }
-    if (options.noise > 0)
+    if (rendering.noise > 0)
         if (const double noise = film_noise(result.film); std::isfinite(noise))
             result.noise = noise;
     result.seconds = seconds_since(start);
@@ -146,7 +153,25 @@ void FrameTechnique::add(Film& film, const std::vector<float>& rgba, std::uint32
 
 }  // namespace
 
+FrameOptions frame_options_of(const ParameterValues& options) {
+    FrameOptions frame{.light_points = options.whole("light_points")};
+    std::from_chars(options.word("light_view").data(),
+                    options.word("light_view").data() + options.word("light_view").size(),
+                    frame.light_view);
+    return frame;
+}
+
 TechniqueDescription realtime_description(TechniqueDescription description) {
+    description.parameters.push_back(
+        {.name = "light_points",
+         .meaning = "places that stand for lamps with extent and the sky in a frame",
+         .kind = ParameterKind::integer,
+         .low = 1,
+         .high = 1024,
+         .otherwise = 8});
+    description.parameters.push_back(
+        choice_parameter("light_view", "width of a light's picture, texels",
+                         {{"128", ""}, {"256", ""}, {"512", ""}, {"1024", ""}, {"2048", ""}}, 2));
     description.keeps = {.view = true, .light = true, .material = true, .geometry = true};
     description.prepare = [](const TechniqueInput& input, const Work& work) -> TechniquePtr {
         return std::make_unique<FrameTechnique>(input, work);

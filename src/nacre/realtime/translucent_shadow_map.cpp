@@ -4,11 +4,15 @@
 //   C. Dachsbacher, M. Stamminger 2003, Translucent Shadow Maps, Eurographics Symposium on
 //   Rendering, 197-201.
 //
-// As in the paper: the light's picture of position, normal and entered light with its levels; a
-// dense square for what comes from near and a sparse pattern of 21 taps for the rest. Otherwise than
-// there: the pattern follows the profile (tap_pattern.h), near and far are parted by distance and
-// not by depth, each light may be of any kind, and the distance to a source is that between the
-// points (the paper puts sources along the normal where light enters: option `placement`).
+// As in the paper: the light's picture of position, normal and entered light with its levels, and a
+// dense square of 7 x 7 taps for what comes from near. For the rest there are two patterns: 21 taps
+// as the paper has, on rings that follow the profile (tap_pattern.h); and, the default, squares
+// around the dense one that double in size until they hold the whole picture, each of blocks that
+// are a fixed share of its side: some 340 taps, within 2 % of the sum over all texels, where the
+// rings are within 12 % and show blotches where the surface bends. Otherwise than in the paper,
+// near and far are parted by distance and not by depth, a light may be of any kind, and the distance
+// to a source is that between the points (the paper puts sources along the normal where light
+// enters: option `placement`).
 //
 // Its limits are the paper's: only what a light sees first sends light on, so that what lies behind
 // a cavity is too dark, and light goes straight through the gaps of concave objects as through
@@ -29,7 +33,7 @@ namespace nacre {
 namespace {
 
 enum class Placement { distance, paper };
-enum class Pattern { rings, nested };
+enum class Pattern { nested, rings };
 
 class TranslucentShadowMap final : public RealtimeTechnique {
   public:
@@ -155,9 +159,10 @@ const TechniqueDescription& translucent_shadow_map_technique() {
                                 {"paper", "along the normal where light enters, as in the paper"}}),
               choice_parameter(
                   "pattern", "how what is not near is summed",
-                  {{"rings", "few taps that follow the profile"},
-                   {"nested",
-                    "the whole picture, by blocks that grow with distance: slower, nearly exact"}}),
+                  {{"nested", "the whole picture, by blocks that grow with distance"},
+                   {"rings",
+                    "few taps that follow the profile, as in the paper: faster, with blotches "
+                    "where the surface bends"}}),
               {.name = "blocks",
                .meaning = "blocks of nested squares along a quarter of their side",
                .kind = ParameterKind::integer,
@@ -170,7 +175,7 @@ const TechniqueDescription& translucent_shadow_map_technique() {
                .low = 7,
                .high = 70,
                .otherwise = 21}},
-         .variants = "pattern=rings|pattern=nested",
+         .variants = "pattern=nested|pattern=rings",
          .realtime = [](const RealtimeInput& in) -> std::unique_ptr<RealtimeTechnique> {
              return std::make_unique<TranslucentShadowMap>(in);
          }});

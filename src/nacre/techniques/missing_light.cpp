@@ -133,6 +133,29 @@ std::string unmet_reflections(const Scene& scene) {
         names_of(scene, mirrors));
 }
 
+/// What shared passes of frames do not carry.
+std::string unseen_in_real_time(const Scene& scene, const RenderPlan& plan) {
+    std::string text = "frames in real time leave out the light that one surface sends to another";
+    const auto say = [&](const std::vector<std::uint32_t>& shapes, std::string_view what) {
+        if (!shapes.empty()) text += fmt::format("; {} drawn {}", names_of(scene, shapes), what);
+    };
+    say(shapes_where(scene,
+                     [&](std::uint32_t i, const ShapeBinding& s) {
+                         return !plan.has_technique(i) && !s.light &&
+                                (s.material->flags() & (transmits | has_null));
+                     }),
+        "as opaque");
+    say(shapes_where(scene,
+                     [&](std::uint32_t i, const ShapeBinding& s) {
+                         return !plan.has_technique(i) && !s.light &&
+                                !(s.material->flags() & (transmits | has_null)) &&
+                                !s.material->is_lambertian();
+                     }),
+        "without highlights");
+    if (scene.mode == ColorMode::spectral) text += "; wavelengths are those of red, green and blue";
+    return text;
+}
+
 }  // namespace
 
 std::vector<std::string> missing_in_simulation(const Scene& scene) {
@@ -145,6 +168,10 @@ std::vector<std::string> missing_in_simulation(const Scene& scene) {
 std::vector<std::string> missing_light(const Scene& scene, const RenderPlan& plan) {
     if (plan.is_simulation()) return missing_in_simulation(scene);
     std::vector<std::string> result;
+    const auto in_real_time = [](const ShapeTechnique& s) {
+        return s.technique && s.technique->realtime;
+    };
+    if (std::ranges::any_of(plan.shapes, in_real_time)) return {unseen_in_real_time(scene, plan)};
     if (std::string text = unseen_media(scene, plan); !text.empty())
         result.push_back(std::move(text));
     // Recursive ray tracing and what came before it never had caustics.

@@ -67,12 +67,17 @@ void main() {
     texel_area = width * width;
     texel = 1 / (width * vec2(textureSize(light_entered, 0)));
 
-    // How deep below where the light enters: by the mean position around the place.
+    // How deep below where the light enters: by the mean position around the place, in areas of
+    // several sizes, since on steep surfaces a mean is far from what is near. The smallest counts:
+    // too large a one would give what is near a weight made for far taps.
     vec3 axis = normalize(cross(across, down));
-    float depth = 0;
+    float depth = 1e30;
     float level = max(0, 0.5 * log2(49 * square * square / texel_area));
-    vec4 around = textureLod(light_position, place, level);
-    if (around.w > 0.01) depth = abs(dot(p - around.xyz / around.w, axis));
+    for (int i = 0; i < 4; ++i) {
+        vec4 around = textureLod(light_position, place, level * float(i) / 3);
+        if (around.w > 0.01) depth = min(depth, abs(dot(p - around.xyz / around.w, axis)));
+    }
+    if (depth > 1e29) depth = 0;
     float column = column_of(depth);
 
     vec3 near = vec3(0);
