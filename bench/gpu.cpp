@@ -75,6 +75,7 @@ void frames(benchmark::State& state, const std::string& mesh, int size,
     if (technique == "plain") renderer.set_visibility(VisibilityMethod::raster);
     FilmSettings film = scene.film;
     film.width = film.height = size;
+    film.crop_width = 0;
     const View view = camera_view(*scene.camera, film, {0.f, 0.f}, renderer.scene().bounds());
     renderer.render(view);
     b.gpu.finish();

@@ -152,8 +152,8 @@ void FrameRenderer::light(const View&, const CameraSurface& camera, Part& part,
                           bool last) {
     const GpuShape& shape = scene_.shapes()[part.part];
     const Point3f middle = shape.bounds.center();
-    // A little more than the box, for what a deformation moves out of it.
-    const float radius = 0.5f * length(shape.bounds.diagonal()) * 1.02f;
+    // Bent, it may leave its ball: by a third of its size at most in what viewers offer.
+    const float radius = shape.radius * (scene_.deformed() ? 1.33f : 1.01f);
     const View view = point.parallel
                           ? parallel_view(point.position, middle, radius, options.light_view)
                           : light_view(point.position, middle, radius, options.light_view);

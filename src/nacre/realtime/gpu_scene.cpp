@@ -106,6 +106,8 @@ void GpuScene::make_geometry(const Work& work) {
             normals.push_back(with(v.normals[k], 0.f));
             s.bounds.extend(v.positions[k]);
         }
+        for (const Point3f& p : v.positions)
+            s.radius = std::max(s.radius, length(p - s.bounds.center()));
         if (s.kind != GpuShapeKind::lamp) {
             bounds_.extend(s.bounds);
             occluders_ = std::uint32_t(indices.size());

@@ -18,7 +18,8 @@ struct GpuShape {
     std::uint32_t shape = 0;  ///< of the scene
     std::uint32_t first_triangle = 0, triangles = 0;
     std::uint32_t first_vertex = 0, vertices = 0;
-    Box3f bounds = {};
+    Box3f bounds = {};  ///< at rest
+    float radius = 0;   ///< of the ball about the middle of these that holds the shape at rest
 };
 
 /// A bend of all translucent shapes, made on the device from the positions at rest.
@@ -42,6 +43,8 @@ class GpuScene {
     void changed(const Changes& what, const Work& work = {});
     /// Bends the translucent shapes; none: as they are.
     void deform(Gpu& gpu, const Deformation& deformation);
+
+    bool deformed() const { return deformation_.kind != Deformation::Kind::none; }
 
     const Scene& scene() const { return scene_; }
     /// Translucent ones first, lamps last.

@@ -9,7 +9,7 @@
 // as the paper has, on rings that follow the profile (tap_pattern.h); and, the default, squares
 // around the dense one that double in size until they hold the whole picture, each of blocks that
 // are a fixed share of its side: some 340 taps, within 2 % of the sum over all texels, where the
-// rings are within 12 % and show blotches where the surface bends. Otherwise than in the paper,
+// rings are within 12 to 22 % and show blotches where the surface bends. Otherwise than in the paper,
 // near and far are parted by distance and not by depth, a light may be of any kind, and the distance
 // to a source is that between the points (the paper puts sources along the normal where light
 // enters: option `placement`).
