@@ -28,11 +28,27 @@ FitResiduals::FitResiduals(const FitProblem& problem, const TargetSamples& sampl
 
 bool FitResiduals::Evaluate(double const* const* x, double* residuals, double** jacobians) const {
     double* jacobian = jacobians ? jacobians[0] : nullptr;
+    const std::size_t n = std::size_t(num_residuals()), wanted = jacobian ? n * layout_.size : 0;
+    if (!std::equal(last_.x.begin(), last_.x.end(), x[0], x[0] + layout_.size) ||
+        last_.jacobian.size() < wanted) {
+        last_.residuals.resize(n);
+        last_.jacobian.resize(wanted);
+        last_.x.clear();
+        if (!compute(x[0], last_.residuals.data(), jacobian ? last_.jacobian.data() : nullptr))
+            return false;
+        last_.x.assign(x[0], x[0] + layout_.size);
+    }
+    std::ranges::copy(last_.residuals, residuals);
+    if (jacobian) std::ranges::copy(last_.jacobian, jacobian);
+    return true;
+}
+
+bool FitResiduals::compute(const double* x, double* residuals, double* jacobian) const {
     std::atomic<bool> finite = true;
     for (std::size_t band = 0; band < problem_.bands.size(); ++band)
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples_.size(), 256),
                           [&](const auto& r) {
-                              if (!add(x[0], band, r.begin(), r.end(), residuals, jacobian))
+                              if (!add(x, band, r.begin(), r.end(), residuals, jacobian))
                                   finite = false;
                           });
     return finite;
