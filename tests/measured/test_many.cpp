@@ -9,6 +9,7 @@
 #include "nacre/measured/half_angle.h"
 #include "nacre/measured/merl.h"
 #include "nacre/measured/surface.h"
+#include "nacre/measured/target.h"
 #include "nacre/reflectance/registry.h"
 #include "tests/measured/made_files.h"
 #include "tests/measured/made_source.h"
@@ -59,12 +60,29 @@ struct ManyPairs {
     bool is_direction(std::size_t i) const { return std::isfinite(length(wi[i]) + length(wo[i])); }
 };
 
+/// What was measured, in double precision.
+void check_measured(const Measured& data, const ManyPairs& p, const std::string& what) {
+    const std::size_t n = p.wi.size(), channels = std::size_t(data.info().channels);
+    const std::vector<Vec3d> wi(p.wi.begin(), p.wi.end()), wo(p.wo.begin(), p.wo.end());
+    std::vector<double> values(n * channels), single(channels);
+    const auto known = std::make_unique<bool[]>(n);
+    data.eval_many(wi, wo, values, {known.get(), n});
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!p.is_direction(i)) continue;
+        ASSERT_EQ(known[i], data.eval(wi[i], wo[i], single)) << what << ", pair " << i;
+        for (std::size_t c = 0; c < channels && known[i]; ++c)
+            EXPECT_NEAR(values[i * channels + c], single[c], 1e-4 * std::abs(single[c]) + 1e-5)
+                << what << ", pair " << i;
+    }
+}
+
 /// Values and densities within `bound` of the larger of the value and a hundredth of the largest;
 /// directions that are drawn within 1e-4 of those of single calls, but for one in a thousand, which
 /// may fall on the other side of an edge.
 void check_many(const MeasuredSurface& s, const std::string& what) {
     constexpr float bound = 1e-4f;
     const ManyPairs p;
+    check_measured(s.data(), p, what);
     const std::size_t n = p.wi.size(), channels = std::size_t(s.info().channels);
     std::vector<float> values(n * channels, -7.f), densities(n, -7.f), single(n * channels), pdf(n);
     s.eval_many(p.wi, p.wo, values, densities);
@@ -195,6 +213,25 @@ TEST(Many, LightThatPasses) {
     for (int i = 0; i < 25; ++i) numbers += fmt::format("{}, ", 0.05 + 0.01 * i);
     klems.blocks = {{"Reflection Front", numbers}};
     check_many(MeasuredSurface(test::parsed(klems.text())), "klems");
+}
+
+TEST(Many, ColoursOfATarget) {
+    test::MadeRgl made;
+    made.value = [](int c, double, double theta, double x, double y) {
+        return (1. + c) * (0.1 + x * y + 0.1 * theta);
+    };
+    const MeasuredTarget target(test::parsed(made.file().bytes()), "made");
+    const ManyPairs p;
+    const std::vector<Vec3d> wi(p.wi.begin(), p.wi.end()), wo(p.wo.begin(), p.wo.end());
+    const auto values = target.values(wi, wo);
+    ASSERT_EQ(values.size(), wi.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!p.is_direction(i)) continue;
+        const auto one = target.value(wi[i], wo[i]);
+        ASSERT_EQ(values[i].has_value(), one.has_value()) << i;
+        for (std::size_t c = 0; c < 3 && one; ++c)
+            EXPECT_NEAR((*values[i])[c], (*one)[c], 1e-4 * (*one)[c]) << i;
+    }
 }
 
 TEST(Many, MeasuredFiles) {
