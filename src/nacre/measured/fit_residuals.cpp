@@ -29,14 +29,14 @@ FitResiduals::FitResiduals(const FitProblem& problem, const TargetSamples& sampl
 bool FitResiduals::Evaluate(double const* const* x, double* residuals, double** jacobians) const {
     double* jacobian = jacobians ? jacobians[0] : nullptr;
     const std::size_t n = std::size_t(num_residuals()), wanted = jacobian ? n * layout_.size : 0;
-    if (!std::equal(last_.x.begin(), last_.x.end(), x[0], x[0] + layout_.size) ||
-        last_.jacobian.size() < wanted) {
+    const std::span<const double> place(x[0], std::size_t(layout_.size));
+    if (!last_.is_kept || !std::ranges::equal(last_.x, place) || last_.jacobian.size() < wanted) {
+        last_.x.assign(place.begin(), place.end());
         last_.residuals.resize(n);
         last_.jacobian.resize(wanted);
-        last_.x.clear();
-        if (!compute(x[0], last_.residuals.data(), jacobian ? last_.jacobian.data() : nullptr))
-            return false;
-        last_.x.assign(x[0], x[0] + layout_.size);
+        last_.is_kept =
+            compute(x[0], last_.residuals.data(), jacobian ? last_.jacobian.data() : nullptr);
+        if (!last_.is_kept) return false;
     }
     std::ranges::copy(last_.residuals, residuals);
     if (jacobian) std::ranges::copy(last_.jacobian, jacobian);

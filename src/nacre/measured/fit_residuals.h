@@ -51,9 +51,10 @@ class FitResiduals final : public ceres::CostFunction {
     std::vector<Lobe> lobes_;
     std::vector<double> factor_;
     struct Answer {
-        std::vector<double> x, residuals, jacobian;
+        bool is_kept = false;
+        std::vector<double> x, residuals, jacobian;  ///< the last empty where not asked for
     };
-    mutable Answer last_;  ///< no x: none
+    mutable Answer last_;
 };
 
 }  // namespace nacre

@@ -1,4 +1,7 @@
 // RglBrdf for many pairs of directions: sixteen go through each step together.
+#include <algorithm>
+#include <limits>
+
 #include "nacre/measured/rgl_brdf.h"
 #include "nacre/measured/warp_packs.h"
 
@@ -9,6 +12,12 @@ namespace {
 template <int fixed>
 void add_weighted(const float* from, float weight, int n, float* to) {
     for (int c = 0; c < (fixed ? fixed : n); ++c) to[c] += weight * from[c];
+}
+
+/// Places in a table are gathered by 32-bit numbers.
+bool can_gather(const RglTables& t) {
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+    return std::max(t.vndf.values().size(), t.luminance.values().size()) <= most;
 }
 
 }  // namespace
@@ -123,16 +132,32 @@ struct RglBrdf::Packs {
 
 void RglBrdf::eval_many(std::span<const Vec3f> given, std::span<const Vec3f> other,
                         std::span<float> out, std::span<float> pdf) const {
+    const std::size_t n = std::size_t(t_.channels);
+    if (!can_gather(t_)) {
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            const auto row = out.empty() ? out : out.subspan(i * n, n);
+            const auto density = eval_pdf(given[i], other[i], row);
+            if (!density) std::ranges::fill(row, 0.f);
+            if (!pdf.empty()) pdf[i] = density.value_or(0.f);
+        }
+        return;
+    }
     const Packs packs{*this};
     for_each_pack(given.size(), [&](std::size_t i, int count) {
         packs.eval(load(&given[i], count), load(&other[i], count), count,
-                   out.empty() ? nullptr : &out[i * std::size_t(t_.channels)],
-                   pdf.empty() ? nullptr : &pdf[i]);
+                   out.empty() ? nullptr : &out[i * n], pdf.empty() ? nullptr : &pdf[i]);
     });
 }
 
 void RglBrdf::sample_many(std::span<const Vec3f> given, std::span<const Vec2f> u,
                           std::span<Vec3f> other) const {
+    if (!can_gather(t_)) {
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            const auto s = sample(given[i], u[i].x, u[i].y);
+            other[i] = s ? s->direction : Vec3f{};
+        }
+        return;
+    }
     const Packs packs{*this};
     for_each_pack(given.size(), [&](std::size_t i, int count) {
         const Vec2<Pack> at = load(&u[i], count);
