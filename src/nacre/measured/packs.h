@@ -1,7 +1,8 @@
 #pragma once
 // Directions sixteen at a time: what bulk evaluation of measured reflectance has in common with
 // single calls (half_vector_square.h, surface.h), over packs. Only for the .cpp files of this room.
-#include <span>
+#include <algorithm>
+#include <numbers>
 
 #include "nacre/math/fast_atan2.h"
 #include "nacre/math/gather.h"
@@ -23,8 +24,8 @@ void for_each_pack(std::size_t n, Step&& step) {
 }
 
 /// The numbers of the lanes; those beyond `count` are the last one again.
-inline PackInts lane_numbers(int count = pack_size) {
-    PackInts at;
+inline PackInts lane_numbers(int count) {
+    PackInts at{};
     for (int i = 0; i < pack_size; ++i) at[i] = std::min(i, count - 1);
     return at;
 }
@@ -39,9 +40,6 @@ inline PackVec load(const Vec3f* from, int count) {
 inline Vec2<Pack> load(const Vec2f* from, int count) {
     const PackInts at = lane_numbers(count) * 2;
     return {gather<pack_size>(&from->x, at), gather<pack_size>(&from->x + 1, at)};
-}
-inline Pack load(const float* from, int count) {
-    return gather<pack_size>(from, lane_numbers(count));
 }
 inline void store(Pack x, float* to, int count) {
     float all[pack_size];

@@ -49,7 +49,8 @@ class MeasuredSurface {
     std::optional<Drawn> draw(const Vec3f& wo, float u1, Vec2f u2, std::span<float> out) const;
 
     /// `eval` of many pairs in `values`, a row of channels each, and `pdf` in `densities`; either may
-    /// be empty. As single calls but for rounding, and several times as quick.
+    /// be empty. As single calls but for rounding (1e-4 of the larger of a value and a hundredth of
+    /// the largest); but for values of scattered samples several times as quick.
     void eval_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> values,
                    std::span<float> densities) const;
     /// `sample` of many; 0, 0, 0 where it gives nothing.

@@ -39,7 +39,6 @@ Place interval(const std::vector<float>& nodes, Pack x) {
 template <int N>
 struct Slices {
     const float *values, *along, *rows;
-    int width;
     PackInts first[N], first_row[N];
     const Pack* weight;
 
@@ -47,11 +46,10 @@ struct Slices {
         : values(w.values().data()),
           along(w.along().data()),
           rows(w.rows().data()),
-          width(w.width()),
           weight(mix.weight) {
         for (int k = 0; k < N; ++k) {
             first_row[k] = mix.slice[k] * w.height();
-            first[k] = first_row[k] * width;
+            first[k] = first_row[k] * w.width();
         }
     }
     Pack up_to_row(PackInts y) const {
