@@ -90,14 +90,10 @@ std::string coverage_picture(const Measured& data, const std::string& title) {
         const char* name;
     };
     std::vector<Row> rows;
-    if (info.reflection_front || info.transmission_front) {
-        rows.push_back({true, true, "reflected"});
-        rows.push_back({true, false, "through"});
-    }
-    if (info.reflection_back || info.transmission_back) {
-        rows.push_back({false, false, "reflected, from behind"});
-        rows.push_back({false, true, "through, from behind"});
-    }
+    if (info.reflection_front) rows.push_back({true, true, "reflected"});
+    if (info.transmission_front) rows.push_back({true, false, "through"});
+    if (info.reflection_back) rows.push_back({false, false, "reflected, from behind"});
+    if (info.transmission_back) rows.push_back({false, true, "through, from behind"});
     const double width = left + 6 * cell, height = top + double(rows.size()) * (cell + 14.) + 34.;
     std::string svg = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 "

@@ -24,8 +24,12 @@ void check(const std::string& name, const char* settings) {
             slot[i] = slots++;
     std::vector<double> value(wi.size()), slopes(wi.size() * slots);
     eval_with_slopes(model.description(), values, slot, slots, wi, wo, value, slopes);
+    std::vector<double> alone(wi.size()), none;
+    eval_with_slopes(model.description(), values, std::vector<int>(parameters.size(), -1), 0, wi,
+                     wo, alone, none);
     for (std::size_t k = 0; k < wi.size(); ++k) {
         EXPECT_DOUBLE_EQ(value[k], model.eval(wi[k], wo[k])) << name;
+        EXPECT_DOUBLE_EQ(alone[k], value[k]) << name;
         for (std::size_t i = 0; i < parameters.size(); ++i) {
             if (slot[i] < 0) continue;
             const double step = 1e-5 * std::max(1., std::abs(values.scalar[i]));
@@ -47,6 +51,9 @@ TEST(ModelSlopes, AgreeWithDifferences) {
     check("lambert", "");
     check("ward", "alpha_u=0.3 alpha_v=0.5");
     check("cook_torrance", "fresnel=conductor m=0.4");
+    check("he_torrance", "sigma0=0.3 tau=1.2");
+    check("he_torrance", "sigma0=1.5 tau=6");
+    check("poulin_fournier", "n=20 spacing=2.3 depth=0.6");
     // More parameters than there are derivatives at a time.
     check("lafortune",
           "kd=0.1 ks=0.2 n=5 ks2=0.1 cx2=-0.8 cy2=-0.9 cz2=0.7 n2=3 ks3=0.2 cxy3=0.1 n3=4");

@@ -87,6 +87,16 @@ TEST(HeTorrance, TheSumIsThatOfItsTerms) {
             EXPECT_NEAR(poisson_sum(g, q), expected, 1e-9 * expected) << g << " " << x;
             EXPECT_NEAR(poisson_sum(float(g), float(q)), expected, 2e-5 * expected)
                 << g << " " << x;
+            // The way of dual numbers, and its slopes against differences.
+            const PoissonSum sum = poisson_sum_with_slopes(g, q);
+            EXPECT_NEAR(sum.value, expected, 1e-9 * expected) << g << " " << x;
+            const double e = 1e-4 * g, d = 1e-4 * std::max(q, 1.);
+            EXPECT_NEAR(sum.by_g, (plain_sum(g + e, q) - plain_sum(g - e, q)) / (2. * e),
+                        1e-6 * std::abs(sum.by_g) + 1e-7 * expected)
+                << g << " " << x;
+            EXPECT_NEAR(sum.by_q, (plain_sum(g, q + d) - plain_sum(g, q - d)) / (2. * d),
+                        1e-6 * std::abs(sum.by_q))
+                << g << " " << x;
         }
     // Lanes of different g share the terms.
     const Spectral lanes = poisson_sum(Spectral(0.1f, 4.f, 80.f, 900.f), Spectral(1.f));

@@ -21,12 +21,6 @@ constexpr std::size_t worst_count = 5, most_looked_at = 100000;
 /// Samples at 80 degrees themselves count, whatever their digits.
 const double usual = std::cos(80.01 * degree);
 
-double mean_of(std::span<const double> values) {
-    double sum = 0.;
-    for (const double v : values) sum += v;
-    return sum / double(values.size());
-}
-
 /// The `part`-th of the values, which are reordered.
 double quantile(std::vector<double>& values, double part) {
     if (values.empty()) return 0.;
@@ -52,11 +46,11 @@ std::vector<Sample> samples_of(const Measured& data, AuditRange& range) {
         if (s.state == SampleState::missing) return;
         for (const double v : s.value) range.most_negative = std::min(range.most_negative, v);
         if (!is_usual(s.wi, s.wo)) return;
-        samples.push_back({s.wi, s.wo, mean_of(s.value)});
+        samples.push_back({s.wi, s.wo, mean_of_values(s.value)});
         values.push_back(samples.back().value);
     });
     if (values.empty()) return samples;
-    range.mean = mean_of(values);
+    range.mean = mean_of_values(values);
     range.median = quantile(values, 0.5);
     range.percentile99 = quantile(values, 0.99);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -95,9 +89,9 @@ AuditReciprocity reciprocity_of(const Measured& data, const std::vector<Sample>&
     std::vector<AuditedPair> pairs;
     const auto add = [&](const Vec3d& wi, const Vec3d& wo) {
         if (!data.eval(wi, wo, out)) return;
-        const double value = mean_of(out);
+        const double value = mean_of_values(out);
         if (!data.eval(wo, wi, out)) return;
-        pairs.push_back({wi, wo, value, mean_of(out)});
+        pairs.push_back({wi, wo, value, mean_of_values(out)});
     };
     const std::size_t stride = stride_for(samples.size(), most_looked_at);
     for (std::size_t i = 0; i < samples.size(); i += stride)
@@ -143,7 +137,8 @@ AuditAlbedo albedo_from(const Measured& data, const ChannelColours& colours, con
     const std::size_t n = std::size_t(data.info().channels);
     const Vec3d up{wi.x, wi.y, std::abs(wi.z)};
     const double phi_i = wi.x == 0. && wi.y == 0. ? 0. : std::atan2(wi.y, wi.x);
-    std::vector<double> out(n), sums[2] = {std::vector<double>(n), std::vector<double>(n)};
+    std::vector<double> sums[2] = {std::vector<double>(n), std::vector<double>(n)}, weights;
+    std::vector<Vec3d> exits;
     double known[2] = {}, all = 0.;
     for (std::uint32_t i = 0; i < points; ++i) {
         const double u = sobol_owen(i, 0, 1), theta = 0.5 * pi * u * u;
@@ -153,12 +148,26 @@ AuditAlbedo albedo_from(const Measured& data, const ChannelColours& colours, con
         if (!(wo.z > 0. && up_h > 0.)) continue;
         const double weight = wo.z * 4. * up_h * 2. * pi * pi * u * std::sin(theta) / points;
         all += weight;
-        for (int through = 0; through < 2; ++through) {
-            const bool front = a.front != bool(through);
-            if (!data.eval(wi, {wo.x, wo.y, front ? wo.z : -wo.z}, out)) continue;
-            known[through] += weight;
-            for (std::size_t c = 0; c < n; ++c) sums[through][c] += weight * out[c];
+        weights.push_back(weight);
+        exits.push_back(a.front ? wo : Vec3d{wo.x, wo.y, -wo.z});
+    }
+    constexpr std::size_t block = 512;
+    const std::vector<Vec3d> light(block, wi);
+    std::vector<double> out(n * block);
+    bool is_known[block];
+    for (int through = 0; through < 2; ++through) {
+        for (std::size_t first = 0; first < exits.size(); first += block) {
+            const std::size_t count = std::min(block, exits.size() - first);
+            data.eval_many(std::span(light).first(count), std::span(exits).subspan(first, count),
+                           out, std::span(is_known).first(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!is_known[i]) continue;
+                const double weight = weights[first + i];
+                known[through] += weight;
+                for (std::size_t c = 0; c < n; ++c) sums[through][c] += weight * out[n * i + c];
+            }
         }
+        for (Vec3d& wo : exits) wo.z = -wo.z;
     }
     // As parts of all points: then what is even is exact.
     for (std::vector<double>& sum : sums)

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/measured/number_text.h"
+
 namespace nacre {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.;
-
-double theta_of(const Vec3d& w) { return std::atan2(std::hypot(w.x, w.y), w.z) / degree; }
 
 void judge_values(const MeasuredInfo& info, Audit& a) {
     if (info.negative > 0)
@@ -107,8 +107,8 @@ void judge_coverage(const MeasuredInfo& info, Audit& a) {
 std::string place_in_words(const AuditedPair& p) {
     const double phi = std::remainder(std::atan2(p.wo.y, p.wo.x) - std::atan2(p.wi.y, p.wi.x),
                                       2. * std::numbers::pi);
-    return fmt::format("theta_i {:.1f}, theta_o {:.1f}, phi {:.1f} degrees", theta_of(p.wi),
-                       theta_of(p.wo), std::abs(phi) / degree);
+    return fmt::format("theta_i {:.1f}, theta_o {:.1f}, phi {:.1f} degrees",
+                       theta_of(p.wi) / degree, theta_of(p.wo) / degree, std::abs(phi) / degree);
 }
 
 void judge(const MeasuredInfo& info, Audit& audit) {

@@ -28,11 +28,27 @@ FitResiduals::FitResiduals(const FitProblem& problem, const TargetSamples& sampl
 
 bool FitResiduals::Evaluate(double const* const* x, double* residuals, double** jacobians) const {
     double* jacobian = jacobians ? jacobians[0] : nullptr;
+    const std::size_t n = std::size_t(num_residuals()), wanted = jacobian ? n * layout_.size : 0;
+    const std::span<const double> place(x[0], std::size_t(layout_.size));
+    if (!last_.is_kept || !std::ranges::equal(last_.x, place) || last_.jacobian.size() < wanted) {
+        last_.x.assign(place.begin(), place.end());
+        last_.residuals.resize(n);
+        last_.jacobian.resize(wanted);
+        last_.is_kept =
+            compute(x[0], last_.residuals.data(), jacobian ? last_.jacobian.data() : nullptr);
+        if (!last_.is_kept) return false;
+    }
+    std::ranges::copy(last_.residuals, residuals);
+    if (jacobian) std::ranges::copy(last_.jacobian, jacobian);
+    return true;
+}
+
+bool FitResiduals::compute(const double* x, double* residuals, double* jacobian) const {
     std::atomic<bool> finite = true;
     for (std::size_t band = 0; band < problem_.bands.size(); ++band)
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples_.size(), 256),
                           [&](const auto& r) {
-                              if (!add(x[0], band, r.begin(), r.end(), residuals, jacobian))
+                              if (!add(x, band, r.begin(), r.end(), residuals, jacobian))
                                   finite = false;
                           });
     return finite;

@@ -21,7 +21,8 @@ struct FitProblem {
 
 /// Residuals: for each pair and band what the metric sees of model and target, times the root of
 /// the weight, over the target's size; half their sum of squares is half the squared relative
-/// error. What is given must outlive it.
+/// error. What is given must outlive it. Keeps its last answer, because the solver asks up to three
+/// times at one place: one solver at a time.
 class FitResiduals final : public ceres::CostFunction {
   public:
     FitResiduals(const FitProblem& problem, const TargetSamples& samples, FitMetric metric);
@@ -37,6 +38,8 @@ class FitResiduals final : public ceres::CostFunction {
         int unknowns = 0;       ///< how many
         std::vector<int> slot;  ///< of each parameter, which of them sets it; -1: none
     };
+    /// All of Evaluate, without looking at what is kept.
+    bool compute(const double* x, double* residuals, double* jacobian) const;
     ValuesD values_at(const double* x, std::size_t lobe, std::size_t band) const;
     bool add(const double* x, std::size_t band, std::size_t begin, std::size_t end,
              double* residuals, double* jacobian) const;
@@ -47,6 +50,11 @@ class FitResiduals final : public ceres::CostFunction {
     FitMetric metric_;
     std::vector<Lobe> lobes_;
     std::vector<double> factor_;
+    struct Answer {
+        bool is_kept = false;
+        std::vector<double> x, residuals, jacobian;  ///< the last empty where not asked for
+    };
+    mutable Answer last_;
 };
 
 }  // namespace nacre

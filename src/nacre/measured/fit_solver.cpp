@@ -4,6 +4,7 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <tbb/parallel_for.h>
 
 #include "nacre/math/error.h"
 
@@ -21,10 +22,19 @@ class StopWhenAsked final : public ceres::IterationCallback {
     const std::atomic<bool>* stop_;
 };
 
+/// What is fitted to what, and by which measure.
+struct Task {
+    const FitProblem& fit;
+    const TargetSamples& samples;
+    FitMetric metric;
+    const std::atomic<bool>* stop;
+};
+
 /// From x within the bounds. What `held` lists stays as it is.
-FitSolution solve(FitResiduals& residuals, const FitProblem& fit, std::vector<double> x,
-                  int iterations, const std::atomic<bool>* stop,
+FitSolution solve(const Task& task, std::vector<double> x, int iterations,
                   const std::vector<int>& held = {}) {
+    const FitProblem& fit = task.fit;
+    FitResiduals residuals(fit, task.samples, task.metric);
     ceres::Problem::Options ours;
     ours.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ours);
@@ -46,7 +56,7 @@ FitSolution solve(FitResiduals& residuals, const FitProblem& fit, std::vector<do
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-10;
     options.logging_type = ceres::SILENT;
-    StopWhenAsked callback(stop);
+    StopWhenAsked callback(task.stop);
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
@@ -67,14 +77,14 @@ std::vector<int> at_ends(const FitProblem& fit, const std::vector<double>& x) {
 
 /// Goes on from a solution. The solver's steps end at the bounds that they meet, which can be a
 /// crawl along them; so what has reached one is held while the others move, and let go again.
-FitSolution polished(FitResiduals& residuals, const FitProblem& fit, FitSolution best,
-                     int iterations, const std::atomic<bool>* stop) {
-    for (int round = 0; round < 3 && best.cost < infinite && !(stop && *stop); ++round) {
-        const std::vector<int> held = at_ends(fit, best.x);
+FitSolution polished(const Task& task, FitSolution best, int iterations) {
+    const auto stopped = [&] { return task.stop && *task.stop; };
+    for (int round = 0; round < 3 && best.cost < infinite && !stopped(); ++round) {
+        const std::vector<int> held = at_ends(task.fit, best.x);
         if (held.empty() || held.size() == best.x.size()) break;
         const double before = best.cost;
         for (const std::vector<int>& h : {held, std::vector<int>{}}) {
-            FitSolution next = solve(residuals, fit, best.x, iterations, stop, h);
+            FitSolution next = solve(task, best.x, iterations, h);
             next.iterations += best.iterations;
             if (next.cost < best.cost) best = std::move(next);
         }
@@ -130,30 +140,31 @@ FitSolution solve_from(const FitProblem& fit, std::vector<std::vector<double>> s
                        const std::vector<int>& held, const TargetSamples& samples,
                        const TargetSamples& few, const FitOptions& options) {
     const auto better = [](const FitSolution& a, const FitSolution& b) { return a.cost < b.cost; };
-    std::vector<FitSolution> solutions;
-    FitResiduals coarse(fit, few, FitMetric::log);
-    FitSolution alone;  // the best of those that leave `held` as it is
-    for (auto& start : starts) {
+    std::vector<FitSolution> solutions(starts.size()), apart(starts.size());
+    const Task coarse{fit, few, FitMetric::log, options.stop};
+    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
         if (!held.empty()) {
-            FitSolution s = solve(coarse, fit, start, 15, options.stop, held);
-            start = s.x;
-            if (s.cost < alone.cost) alone = std::move(s);
+            apart[i] = solve(coarse, starts[i], 15, held);
+            starts[i] = apart[i].x;
         }
-        solutions.push_back(solve(coarse, fit, start, 15, options.stop));
-    }
+        solutions[i] = solve(coarse, starts[i], 15);
+    });
+    // The best of those that leave `held` as it is.
+    const FitSolution alone = *std::min_element(apart.begin(), apart.end(), better);
     std::stable_sort(solutions.begin(), solutions.end(), better);
     if (!(solutions.front().cost < infinite))
         throw RunError(
             fmt::format("{} cannot be fitted: its values are not finite", fit.model.name));
     keep_different(solutions);
-    FitResiduals fine(fit, samples, options.metric);
+    const Task fine{fit, samples, options.metric, options.stop};
     // Few pairs may lead astray what all of them have found before.
     if (alone.cost < infinite)
-        solutions.push_back(solve(fine, fit, alone.x, options.most_iterations, options.stop, held));
-    for (FitSolution& s : solutions)
-        s = solve(fine, fit, s.x, options.most_iterations, options.stop);
-    return polished(fine, fit, *std::min_element(solutions.begin(), solutions.end(), better),
-                    options.most_iterations, options.stop);
+        solutions.push_back(solve(fine, alone.x, options.most_iterations, held));
+    tbb::parallel_for(std::size_t{0}, solutions.size(), [&](std::size_t i) {
+        solutions[i] = solve(fine, solutions[i].x, options.most_iterations);
+    });
+    return polished(fine, *std::min_element(solutions.begin(), solutions.end(), better),
+                    options.most_iterations);
 }
 
 }  // namespace nacre

@@ -6,6 +6,7 @@
 // viewer's azimuth: highlights are finely resolved wherever the viewer stands. Tables for viewers between those of the grid are
 // mixed, and the density is that of the mixture exactly (marginal_warp.h).
 #include <functional>
+#include <span>
 
 #include "nacre/math/vec.h"
 #include "nacre/measured/marginal_warp.h"
@@ -23,6 +24,10 @@ class HalfVectorSampler {
     Vec3f sample(const Vec3f& wo, float u1, Vec2f u2) const;
     /// Density of `sample`, sr^-1; 0 unless both directions are above the horizon.
     float pdf(const Vec3f& wi, const Vec3f& wo) const;
+    /// The same for many, as single calls but for rounding, and several times as quick.
+    void sample_many(std::span<const Vec3f> wo, std::span<const float> u1,
+                     std::span<const Vec2f> u2, std::span<Vec3f> wi) const;
+    void pdf_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) const;
     /// Mean over viewers of the light that comes back from even light, in the unit of `value`.
     double mean() const { return mean_; }
 

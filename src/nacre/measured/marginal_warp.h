@@ -50,6 +50,7 @@ class BilinearTable {
     float eval(float x, float y, const SliceMix& mix) const;
     int width() const { return width_; }
     int height() const { return height_; }
+    const std::vector<float>& values() const { return values_; }
 
   private:
     int width_ = 0, height_ = 0;
@@ -74,6 +75,11 @@ class MarginalWarp {
     float density(float x, float y, const SliceMix& mix) const;
     int width() const { return width_; }
     int height() const { return height_; }
+    /// Of each node: the density over (width - 1) (height - 1), and the integral over its row up to
+    /// it; of each row the integral up to it.
+    const std::vector<float>& values() const { return values_; }
+    const std::vector<float>& along() const { return along_; }
+    const std::vector<float>& rows() const { return rows_; }
 
   private:
     template <int N>

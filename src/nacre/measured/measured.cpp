@@ -45,6 +45,20 @@ bool Measured::eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out
     return true;
 }
 
+void Measured::eval_many(std::span<const Vec3d> wi, std::span<const Vec3d> wo,
+                         std::span<double> out, std::span<bool> known) const {
+    const std::size_t n = std::size_t(info_.channels);
+    for (std::size_t i = 0; i < wi.size(); ++i)
+        known[i] = eval(wi[i], wo[i], out.subspan(i * n, n));
+}
+
+void Measured::eval_float_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo,
+                               std::span<float> out, std::span<bool> known) const {
+    const std::size_t n = std::size_t(info_.channels);
+    for (std::size_t i = 0; i < wi.size(); ++i)
+        known[i] = eval_float(wi[i], wo[i], out.subspan(i * n, n));
+}
+
 ChannelColours::ChannelColours(const MeasuredInfo& info) {
     if (info.wavelengths.size() < 2) {
         if (info.channels == 1) weight_.assign(1, Vec3d(1., 1., 1.));

@@ -57,6 +57,14 @@ class Measured {
     /// The same in single precision, for renderers: as quick as the format allows.
     virtual bool eval_float(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const;
 
+    /// The same for many pairs: a row of channels each, and whether single calls are true; where not,
+    /// the row has no meaning. As single calls but for rounding in single precision, and as quick as
+    /// the format allows.
+    virtual void eval_many(std::span<const Vec3d> wi, std::span<const Vec3d> wo,
+                           std::span<double> out, std::span<bool> known) const;
+    virtual void eval_float_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo,
+                                 std::span<float> out, std::span<bool> known) const;
+
     /// Every place of the table, in the file's order. Directions of missing ones may lie below the
     /// horizon.
     virtual void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const = 0;
@@ -66,6 +74,12 @@ class Measured {
     void count_samples();
     MeasuredInfo info_;
 };
+
+inline double mean_of_values(std::span<const double> values) {
+    double sum = 0.;
+    for (const double v : values) sum += v;
+    return sum / double(values.size());
+}
 
 /// Linear red, green and blue (color.h) of channel values. Bands are themselves, grey is three
 /// times itself. Wavelengths: colour of the surface under D65, CIE 1931 2-degree observer, linear

@@ -11,6 +11,7 @@
 // a negative one says that there is no measurement.
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +45,9 @@ class MerlBrdf {
                               MerlLookup lookup = MerlLookup::linear) const;
     /// The same in single precision, linear.
     std::optional<Vec3f> eval_float(const Vec3f& wi, const Vec3f& wo) const;
+    /// The same for many: a row of three in `out` and whether there is anything; else `out` stays.
+    void eval_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out,
+                   std::span<bool> known) const;
     /// The node below the half-angle coordinates of two unit vectors that are not opposite.
     static MerlNode node_below(const Vec3d& wi, const Vec3d& wo);
     /// A node's value; nothing if not measured.

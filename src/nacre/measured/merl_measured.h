@@ -15,6 +15,10 @@ class MerlMeasured final : public Measured {
         for (int c = 0; c < 3 && value; ++c) out[c] = (*value)[c];
         return value.has_value();
     }
+    void eval_float_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out,
+                         std::span<bool> known) const override {
+        brdf_.eval_many(wi, wo, out, known);
+    }
     void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const override;
     const MerlBrdf& brdf() const { return brdf_; }
 

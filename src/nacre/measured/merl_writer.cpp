@@ -1,6 +1,7 @@
 // .binary files of MERL's format from any isotropic BRDF.
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -24,6 +25,29 @@ Vec3d lifted(const Vec3d& w) {
     return {w.x * s, w.y * s, least};
 }
 
+/// The nodes of one theta_h and theta_d that can be seen, and what the data say there, with light and
+/// viewer as they are and exchanged.
+struct Row {
+    std::vector<std::size_t> at;
+    std::vector<Vec3d> wi, wo;
+    std::vector<double> one, other;
+    std::array<bool, np> known, back;
+
+    Row(const Measured& data, int h, int d) {
+        for (int p = 0; p < np; ++p) {
+            const DirectionPair pair = from_half_angle(merl_node_angles(h, d, p));
+            if (!(std::min(pair.wi.z, pair.wo.z) > -below)) continue;
+            at.push_back((std::size_t(h) * nd + d) * np + p);
+            wi.push_back(lifted(pair.wi));
+            wo.push_back(lifted(pair.wo));
+        }
+        one.resize(planes * at.size());
+        other.resize(planes * at.size());
+        data.eval_many(wi, wo, one, std::span(known).first(at.size()));
+        data.eval_many(wo, wi, other, std::span(back).first(at.size()));
+    }
+};
+
 /// What was found on one plane of theta_h.
 struct Found {
     std::size_t negative = 0;
@@ -37,19 +61,16 @@ WrittenMeasured write_merl(const Measured& data, const WriteOptions&) {
     std::vector<Found> found(nh);
     tbb::parallel_for(0, nh, [&](int h) {
         Found& here = found[std::size_t(h)];
-        for (int d = 0; d < nd; ++d)
-            for (int p = 0; p < np; ++p) {
-                const DirectionPair pair = from_half_angle(merl_node_angles(h, d, p));
-                if (!(std::min(pair.wi.z, pair.wo.z) > -below)) continue;
-                const Vec3d wi = lifted(pair.wi), wo = lifted(pair.wo);
-                double one[planes], other[planes];
-                const bool known = data.eval(wi, wo, one), back = data.eval(wo, wi, other);
+        for (int d = 0; d < nd; ++d) {
+            const Row row(data, h, d);
+            for (std::size_t i = 0; i < row.at.size(); ++i) {
+                const bool known = row.known[i], back = row.back[i];
                 if (!known && !back) continue;
-                const std::size_t at = (std::size_t(h) * nd + d) * np + p;
+                const double *one = &row.one[planes * i], *other = &row.other[planes * i];
                 bool negative = false;
                 for (std::size_t c = 0; c < planes; ++c) {
                     if (known && back) {
-                        const double seen = wi.z * wo.z;
+                        const double seen = row.wi[i].z * row.wo[i].z;
                         here.sum += seen * std::abs(one[c]);
                         here.exchanged += seen * std::abs(one[c] - other[c]);
                     }
@@ -57,10 +78,11 @@ WrittenMeasured write_merl(const Measured& data, const WriteOptions&) {
                                      : known       ? one[c]
                                                    : other[c];
                     negative = negative || f < 0.;
-                    values[c * node_count + at] = std::max(f, 0.) / MerlBrdf::scale[c];
+                    values[c * node_count + row.at[i]] = std::max(f, 0.) / MerlBrdf::scale[c];
                 }
                 here.negative += negative;
             }
+        }
     });
     Found all;
     for (const Found& f : found) {

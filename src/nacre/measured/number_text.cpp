@@ -76,4 +76,6 @@ Vec3d polar_direction(double theta, double phi) {
     return {s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
 }
 
+double theta_of(const Vec3d& w) { return std::atan2(std::hypot(w.x, w.y), w.z); }
+
 }  // namespace nacre

@@ -25,5 +25,7 @@ double checked_phi(const MeasuredSource& source, std::size_t line, std::string_v
 
 /// A unit vector by its polar angles, radians.
 Vec3d polar_direction(double theta, double phi);
+/// The angle to the normal, radians.
+double theta_of(const Vec3d& w);
 
 }  // namespace nacre

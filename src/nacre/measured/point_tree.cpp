@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace nacre {
@@ -12,70 +13,97 @@ struct PointTree::Search {
     int wanted;
     Near* found;
     int count = 0;
+    Point apart{};  ///< along each axis, from p to the part that is looked at
 
-    bool full() const { return count == wanted; }
+    double farthest = std::numeric_limits<double>::infinity();  ///< beyond this nothing counts
+
     void offer(double distance, std::uint32_t index) {
         const auto before = [&](const Near& n) {
             return n.distance < distance || (n.distance == distance && n.index < index);
         };
-        if (full() && before(found[count - 1])) return;
-        int at = full() ? count - 1 : count++;
+        const bool full = count == wanted;
+        if (full && before(found[count - 1])) return;
+        int at = full ? count - 1 : count++;
         for (; at > 0 && !before(found[at - 1]); --at) found[at] = found[at - 1];
         found[at] = {distance, index};
+        if (count == wanted) farthest = found[count - 1].distance;
     }
 };
 
-PointTree::PointTree(std::vector<Point> points)
-    : points_(std::move(points)), index_(points_.size()), axis_(points_.size()) {
-    std::iota(index_.begin(), index_.end(), 0u);
-    build(0, points_.size());
-    std::vector<Point> sorted(points_.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = points_[index_[i]];
-    points_ = std::move(sorted);
+PointTree::PointTree(std::vector<Point> points) : size_(points.size()) {
+    std::vector<std::uint32_t> index(points.size());
+    std::iota(index.begin(), index.end(), 0u);
+    if (!index.empty()) build(points, index);
 }
 
-void PointTree::build(std::size_t begin, std::size_t end) {
-    if (end - begin < 2) return;
-    Point low = points_[index_[begin]], high = low;
-    for (std::size_t i = begin; i < end; ++i)
+void PointTree::build(const std::vector<Point>& points, std::span<std::uint32_t> part) {
+    const std::size_t node = nodes_.size();
+    nodes_.emplace_back();
+    if (part.size() <= bucket) {
+        nodes_[node].other = std::uint32_t(leaves_.size());
+        Leaf& leaf = leaves_.emplace_back();
+        leaf.count = int(part.size());
+        for (int i = 0; i < leaf.count; ++i) {
+            leaf.index[i] = part[i];
+            for (int k = 0; k < 4; ++k) leaf.at[k].set(i, points[part[i]][k]);
+        }
+        return;
+    }
+    Point low = points[part[0]], high = low;
+    for (const std::uint32_t i : part)
         for (int k = 0; k < 4; ++k) {
-            low[k] = std::min(low[k], points_[index_[i]][k]);
-            high[k] = std::max(high[k], points_[index_[i]][k]);
+            low[k] = std::min(low[k], points[i][k]);
+            high[k] = std::max(high[k], points[i][k]);
         }
     int axis = 0;
     for (int k = 1; k < 4; ++k)
         if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-    const std::size_t middle = (begin + end) / 2;
-    const auto first = index_.begin();
-    std::nth_element(first + std::ptrdiff_t(begin), first + std::ptrdiff_t(middle),
-                     first + std::ptrdiff_t(end), [&](std::uint32_t a, std::uint32_t b) {
-                         return points_[a][axis] != points_[b][axis]
-                                    ? points_[a][axis] < points_[b][axis]
-                                    : a < b;
-                     });
-    axis_[middle] = std::uint8_t(axis);
-    build(begin, middle);
-    build(middle + 1, end);
+    // Whole leaves below the split.
+    const std::size_t middle = (part.size() / 2 + bucket - 1) / bucket * bucket;
+    std::nth_element(
+        part.begin(), part.begin() + std::ptrdiff_t(middle), part.end(),
+        [&](std::uint32_t a, std::uint32_t b) {
+            return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+        });
+    nodes_[node].axis = axis;
+    nodes_[node].split = points[part[middle]][axis];
+    build(points, part.first(middle));
+    nodes_[node].other = std::uint32_t(nodes_.size());
+    build(points, part.subspan(middle));
 }
 
-void PointTree::search(std::size_t begin, std::size_t end, Search& s) const {
-    if (begin >= end) return;
-    const std::size_t middle = (begin + end) / 2;
-    const Point& q = points_[middle];
-    double distance = 0.;
-    for (int k = 0; k < 4; ++k) distance += (s.p[k] - q[k]) * (s.p[k] - q[k]);
-    s.offer(distance, index_[middle]);
-    if (end - begin == 1) return;
-    const double beyond = s.p[axis_[middle]] - q[axis_[middle]];
+/// `within`: the squared distance from p to the part of space that the node holds (S. Arya, D. Mount
+/// 1993, Algorithms for Fast Vector Quantization, Data Compression Conference).
+void PointTree::search(std::uint32_t at, double within, Search& s) const {
+    const Node& node = nodes_[at];
+    if (node.axis < 0) {
+        const Leaf& leaf = leaves_[node.other];
+        Lanes<double, bucket> sum;
+        for (int k = 0; k < 4; ++k) {
+            const Lanes<double, bucket> d = Lanes<double, bucket>(s.p[k]) - leaf.at[k];
+            sum += d * d;
+        }
+        double distance[bucket];
+        sum.store(distance);
+        for (int i = 0; i < leaf.count; ++i)
+            if (distance[i] <= s.farthest) s.offer(distance[i], leaf.index[i]);
+        return;
+    }
+    const double beyond = s.p[node.axis] - node.split;
     const bool right = beyond >= 0.;
-    right ? search(middle + 1, end, s) : search(begin, middle, s);
-    if (!s.full() || beyond * beyond <= s.found[s.count - 1].distance)
-        right ? search(begin, middle, s) : search(middle + 1, end, s);
+    search(right ? node.other : at + 1, within, s);
+    double& apart = s.apart[node.axis];
+    const double before = apart, there = within + (beyond * beyond - before * before);
+    // Rounding must not hide what is as near.
+    if (there * (1. - 1e-12) > s.farthest) return;
+    apart = beyond;
+    search(right ? at + 1 : node.other, there, s);
+    apart = before;
 }
 
 int PointTree::nearest(const Point& p, int count, Near* found) const {
     Search s{p, std::min(count, most), found};
-    search(0, points_.size(), s);
+    if (size_ > 0 && s.wanted > 0) search(0, 0., s);
     for (int i = 0; i < s.count; ++i) found[i].distance = std::sqrt(found[i].distance);
     return s.count;
 }

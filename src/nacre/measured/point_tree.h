@@ -2,12 +2,16 @@
 // The points nearest to another one, of up to four coordinates.
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "nacre/math/lanes.h"
 
 namespace nacre {
 
 /// A balanced k-d tree (J. L. Bentley 1975, Multidimensional Binary Search Trees Used for
-/// Associative Searching, Communications of the ACM 18(9)).
+/// Associative Searching, Communications of the ACM 18(9)) with up to eight points a leaf, whose
+/// distances are taken together.
 class PointTree {
   public:
     using Point = std::array<double, 4>;
@@ -19,20 +23,32 @@ class PointTree {
 
     PointTree() = default;
     explicit PointTree(std::vector<Point> points);
-    std::size_t size() const { return points_.size(); }
+    std::size_t size() const { return size_; }
 
     /// The `count` (at most `most`) nearest to `p`, nearest first, by their positions in what was
     /// given; how many there are. Equal distances: the lower position first.
     int nearest(const Point& p, int count, Near* found) const;
 
   private:
-    void build(std::size_t begin, std::size_t end);
+    static constexpr int bucket = 8;
+    /// Inner nodes have what lies below the split next to them; leaves have none.
+    struct Node {
+        double split = 0.;
+        std::int32_t axis = -1;   ///< -1: a leaf
+        std::uint32_t other = 0;  ///< the node beyond the split; of a leaf, which one it is
+    };
+    struct Leaf {
+        Lanes<double, bucket> at[4];
+        std::array<std::uint32_t, bucket> index{};
+        int count = 0;
+    };
+    void build(const std::vector<Point>& points, std::span<std::uint32_t> part);
     struct Search;
-    void search(std::size_t begin, std::size_t end, Search& s) const;
+    void search(std::uint32_t node, double within, Search& s) const;
 
-    std::vector<Point> points_;         ///< by position in the tree
-    std::vector<std::uint32_t> index_;  ///< what was given there
-    std::vector<std::uint8_t> axis_;    ///< along which the range with this middle is split
+    std::size_t size_ = 0;
+    std::vector<Node> nodes_;
+    std::vector<Leaf> leaves_;
 };
 
 }  // namespace nacre

@@ -201,6 +201,26 @@ bool RglMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) 
     return true;
 }
 
+void RglMeasured::eval_many(std::span<const Vec3d> wi, std::span<const Vec3d> wo,
+                            std::span<double> out, std::span<bool> known) const {
+    const std::size_t n = std::size_t(info_.channels);
+    constexpr std::size_t block = 256;
+    std::vector<float> values(n * std::min(block, wi.size()));
+    for (std::size_t first = 0; first < wi.size(); first += block) {
+        const std::size_t count = std::min(block, wi.size() - first);
+        Vec3f given[block], other[block];
+        for (std::size_t i = 0; i < count; ++i) {
+            given[i] = Vec3f(wi[first + i]);
+            other[i] = Vec3f(wo[first + i]);
+            known[first + i] = given[i].z > 0.f && other[i].z > 0.f;
+        }
+        const std::span<float> here = std::span(values).first(count * n);
+        brdf_.eval_many({given, count}, {other, count}, here, {});
+        for (std::size_t k = 0; k < here.size(); ++k)
+            out[first * n + k] = double(here[k]) / wo[first + k / n].z;
+    }
+}
+
 void RglMeasured::for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const {
     const RglTables& t = brdf_.tables();
     std::vector<double> value(std::size_t(info_.channels));

@@ -14,6 +14,8 @@ class RglMeasured final : public Measured {
     /// Fills in what `info` counts.
     RglMeasured(RglBrdf brdf, MeasuredInfo info);
     bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> out) const override;
+    void eval_many(std::span<const Vec3d> wi, std::span<const Vec3d> wo, std::span<double> out,
+                   std::span<bool> known) const override;
     void for_each_sample(const std::function<void(const MeasuredSample&)>& visit) const override;
     const RglBrdf& brdf() const { return brdf_; }
 

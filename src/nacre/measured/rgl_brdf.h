@@ -58,6 +58,14 @@ class RglBrdf {
     std::optional<float> eval_pdf(const Vec3f& given, const Vec3f& other,
                                   std::span<float> out) const;
 
+    /// `eval` of many pairs in `out`, a row of channels each, 0 where it is false, and `pdf`; either
+    /// may be empty. As single calls but for rounding, and several times as quick.
+    void eval_many(std::span<const Vec3f> given, std::span<const Vec3f> other, std::span<float> out,
+                   std::span<float> pdf) const;
+    /// `sample` of many; 0, 0, 0 where it gives nothing.
+    void sample_many(std::span<const Vec3f> given, std::span<const Vec2f> u,
+                     std::span<Vec3f> other) const;
+
     const RglTables& tables() const { return t_; }
     /// What a node (x, y) of a slice's spectra stands for; `given` is the slice's own direction.
     struct Node {
@@ -69,6 +77,7 @@ class RglBrdf {
   private:
     struct Given;
     struct Half;
+    struct Packs;
     Given turned(const Vec3f& given) const;
     Given place(const Vec3f& given) const;
     Half place(const Vec3f& given, const Vec3f& other, Given& g) const;

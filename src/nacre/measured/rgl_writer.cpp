@@ -89,12 +89,6 @@ class Stored {
     BilinearTable ndf_, sigma_;
 };
 
-double mean_of(std::span<const double> values) {
-    double sum = 0.;
-    for (const double v : values) sum += v;
-    return sum / double(values.size());
-}
-
 /// f(w, w), or of the nearest directions to the two sides of w that are known: instruments do not see
 /// into their own light.
 double retro_reflection(const Held& f, const Vec3d& w) {
@@ -104,7 +98,7 @@ double retro_reflection(const Held& f, const Vec3d& w) {
     for (int degrees = 0; degrees <= 45; degrees += 3) {
         const DirectionPair pair = from_half_angle(
             {.theta_h = theta, .phi_h = phi, .theta_d = degrees * pi / 180., .phi_d = 0.5 * pi});
-        if (f.eval(pair.wi, pair.wo, value)) return std::max(mean_of(value), 0.);
+        if (f.eval(pair.wi, pair.wo, value)) return std::max(mean_of_values(value), 0.);
     }
     return 0.;
 }

@@ -13,7 +13,6 @@ constexpr std::size_t most_samples = 100000;
 /// The last angle of a grid, degrees: at the horizon itself BRDFs need not have a value.
 constexpr double near_horizon = 89.;
 
-double theta_of(const Vec3d& w) { return std::atan2(std::hypot(w.x, w.y), w.z); }
 double phi_of(const Vec3d& w) { return w.x == 0. && w.y == 0. ? 0. : std::atan2(w.y, w.x); }
 
 void own_samples(const Measured& data, const std::function<void(const MeasuredRow&)>& visit) {

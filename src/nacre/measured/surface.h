@@ -48,18 +48,32 @@ class MeasuredSurface {
     /// `sample` with its density, and `eval` there in `out`.
     std::optional<Drawn> draw(const Vec3f& wo, float u1, Vec2f u2, std::span<float> out) const;
 
+    /// `eval` of many pairs in `values`, a row of channels each, and `pdf` in `densities`; either may
+    /// be empty. As single calls but for rounding (1e-4 of the larger of a value and a hundredth of
+    /// the largest); but for values of scattered samples several times as quick.
+    void eval_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> values,
+                   std::span<float> densities) const;
+    /// `sample` of many; 0, 0, 0 where it gives nothing.
+    void sample_many(std::span<const Vec3f> wo, std::span<const float> u1,
+                     std::span<const Vec2f> u2, std::span<Vec3f> wi) const;
+
     /// The part of pairs of directions, by cosine of both, of which the file says nothing and that
     /// stay 0: of the front, light reflected.
     double black() const { return black_; }
 
   private:
     bool value(const Vec3f& wi, const Vec3f& wo, std::span<float> out) const;
+    void values_of_many(std::span<const Vec3f> wi, std::span<const Vec3f> wo,
+                        std::span<float> out) const;
     /// One of the two sides that a viewer can be on.
     struct Side {
         std::optional<HalfVectorSampler> reflected, transmitted;
         float reflect_chance = 1.f;
     };
     Side make_side(bool front) const;
+    bool reflects_in_front_alone() const {
+        return front_.reflected && !front_.transmitted && !back_.reflected && !back_.transmitted;
+    }
     const Side& side_of(const Vec3f& wo) const { return wo.z > 0.f ? front_ : back_; }
 
     std::unique_ptr<Measured> data_;

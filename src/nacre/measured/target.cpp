@@ -9,6 +9,13 @@
 
 namespace nacre {
 
+std::vector<std::optional<Vec3d>> Target::values(std::span<const Vec3d> wi,
+                                                 std::span<const Vec3d> wo) const {
+    std::vector<std::optional<Vec3d>> all;
+    for (std::size_t i = 0; i < wi.size(); ++i) all.push_back(value(wi[i], wo[i]));
+    return all;
+}
+
 std::array<ValuesD, 3> band_values(const AnyModel& model) {
     const ValuesD exact = model.values_double(550.);
     const ValuesS bands = model.values(Wavelengths::rgb_bands());
@@ -71,6 +78,19 @@ std::optional<Vec3d> MeasuredTarget::value(const Vec3d& wi, const Vec3d& wo) con
     const std::span<double> out(channels, std::size_t(data_->info().channels));
     if (!data_->eval(wi, wo, out)) return std::nullopt;
     return colours_(out);
+}
+
+std::vector<std::optional<Vec3d>> MeasuredTarget::values(std::span<const Vec3d> wi,
+                                                         std::span<const Vec3d> wo) const {
+    const std::size_t n = std::size_t(data_->info().channels);
+    std::vector<double> out(n * wi.size());
+    const auto known = std::make_unique<bool[]>(wi.size());
+    data_->eval_many(wi, wo, out, {known.get(), wi.size()});
+    std::vector<std::optional<Vec3d>> all(wi.size());
+    for (std::size_t i = 0; i < wi.size(); ++i)
+        if (known[i] && wi[i].z > 0. && wo[i].z > 0.)
+            all[i] = colours_(std::span(out).subspan(i * n, n));
+    return all;
 }
 
 std::unique_ptr<Target> make_target(const std::string& text) {

@@ -2,7 +2,9 @@
 // What a model is fitted to or compared with: a BRDF in the three bands red, green and blue.
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "nacre/measured/measured.h"
 #include "nacre/reflectance/registry.h"
@@ -16,6 +18,9 @@ class Target {
     virtual std::string name() const = 0;
     /// BRDF, sr^-1, without cosine; nothing where it is not known and below the horizon.
     virtual std::optional<Vec3d> value(const Vec3d& wi, const Vec3d& wo) const = 0;
+    /// The same of many pairs, as quick as the target allows; as single calls but for rounding.
+    virtual std::vector<std::optional<Vec3d>> values(std::span<const Vec3d> wi,
+                                                     std::span<const Vec3d> wo) const;
     /// Share of the light from w that is mirrored without blur, beside what `value` gives.
     virtual Vec3d mirror(const Vec3d&) const { return {}; }
     /// Whether it stays the same when the surface turns about its normal.
@@ -48,6 +53,8 @@ class MeasuredTarget final : public Target {
     MeasuredTarget(std::shared_ptr<const Measured> data, std::string name);
     std::string name() const override { return name_; }
     std::optional<Vec3d> value(const Vec3d& wi, const Vec3d& wo) const override;
+    std::vector<std::optional<Vec3d>> values(std::span<const Vec3d> wi,
+                                             std::span<const Vec3d> wo) const override;
     bool isotropic() const override { return data_->info().isotropic; }
     const Measured& data() const { return *data_; }
 

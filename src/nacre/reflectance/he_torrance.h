@@ -92,9 +92,20 @@ struct HeTorrance {
         // for f > 1 where the exponential alone would do. Eight steps reach double precision.
         const V root = sqrt(V(D(2)) * log(select(f > one, f, one)));
         V x = select(f > one, select(root > one, root, one), f);
-        for (int step = 0; step < 8; ++step) {
-            const V e = exp(V(V(D(0.5)) * x * x));
-            x = x - (x * e - f) / ((one + x * x) * e);
+        const auto improved = [](const auto& x, const auto& f) {
+            using T = std::remove_cvref_t<decltype(x)>;
+            const T e = exp(T(T(D(0.5)) * x * x));
+            return T(x - (x * e - f) / ((T(D(1)) + x * x) * e));
+        };
+        if constexpr (requires {
+                          x.v;
+                          x.a;
+                      }) {
+            // Dual numbers: a step at the root gives its exact derivatives.
+            for (int step = 0; step < 8; ++step) x.a = improved(x.a, f.a);
+            x = improved(x, f);
+        } else {
+            for (int step = 0; step < 8; ++step) x = improved(x, f);
         }
         return V(sigma0) / sqrt(one + x * x);
     }

@@ -46,6 +46,17 @@ std::pair<double, double> range(const T& x) {
         return {double(x), double(x)};
 }
 
+/// Which j are summed.
+struct Terms {
+    int first, last, step;
+};
+template <class T>
+Terms terms_of(const T& g) {
+    const auto [low, high] = range(g);
+    return {std::max(1, int(low - 10. * std::sqrt(low))), int(high + 14. * std::sqrt(high) + 60.),
+            std::max(1, int(std::sqrt(low) / 2.5))};
+}
+
 }  // namespace poisson_detail
 
 /// sum_{j>=1} g^j e^-g / (j! j) exp(-q/j) for g, q >= 0.
@@ -58,10 +69,7 @@ std::pair<double, double> range(const T& x) {
 template <class T>
 T poisson_sum(const T& g, const T& q) {
     using std::exp, std::log;
-    const auto [low, high] = poisson_detail::range(g);
-    const int first = std::max(1, int(low - 10. * std::sqrt(low)));
-    const int last = int(high + 14. * std::sqrt(high) + 60.);
-    const int step = std::max(1, int(std::sqrt(low) / 2.5));
+    const auto [first, last, step] = poisson_detail::terms_of(g);
     const T mean = at_least(g, 1e-30);
     T sum = T(0.f);
     for (int j = first; j <= last; j += step) {
@@ -71,6 +79,37 @@ T poisson_sum(const T& g, const T& q) {
         sum += T(constant) * exp(T(T(0.f) - deviance - q / T(float(j))));
     }
     return sum;
+}
+
+/// The same with its derivatives.
+struct PoissonSum {
+    double value = 0., by_g = 0., by_q = 0.;
+};
+inline PoissonSum poisson_sum_with_slopes(double g, double q) {
+    const auto [first, last, step] = poisson_detail::terms_of(g);
+    const double mean = std::max(g, 1e-30);
+    PoissonSum sum;
+    double before = 0.;
+    for (int j = first; j <= last; j += step) {
+        const double ratio = j / mean, deviance = mean * (ratio * std::log(ratio) - (ratio - 1.));
+        const double term = step * poisson_detail::central_weight(j) * std::exp(-deviance - q / j);
+        sum.value += term;
+        sum.by_g += term * (ratio - 1.);
+        sum.by_q -= term / j;
+        // They rise once and fall once, ever faster.
+        if (term < before && term * (1. + ratio) < 1e-17 * sum.value) break;
+        before = term;
+    }
+    return sum;
+}
+/// Of dual numbers: quicker than term by term.
+template <class T>
+requires requires(T x) { x.a, x.v; }
+T poisson_sum(const T& g, const T& q) {
+    const PoissonSum sum = poisson_sum_with_slopes(g.a, q.a);
+    T r(sum.value);
+    r.v = sum.by_g * g.v + sum.by_q * q.v;
+    return r;
 }
 
 /// The mixture of two-dimensional normal distributions to sample such a sum: of variance s j/2 a

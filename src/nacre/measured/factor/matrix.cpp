@@ -25,19 +25,24 @@ FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid) {
     std::atomic<bool> wrong = false, bright = false, coloured = false;
     tbb::parallel_for(0, n, [&](int k) {
         const Vec3d x = grid.row(k);
-        std::size_t hidden = 0, without = 0;
+        std::vector<Vec3d> wi, wo;
+        std::vector<int> column;
         for (int l = 0; l < n; ++l) {
             const DirectionPair w = grid.pair(x, columns[l]);
-            if (!(w.wi.z > 0. && w.wo.z > 0.)) {
-                ++hidden;
-                continue;
-            }
-            const auto value = target.value(w.wi, w.wo);
+            if (!(w.wi.z > 0. && w.wo.z > 0.)) continue;
+            wi.push_back(w.wi);
+            wo.push_back(w.wo);
+            column.push_back(l);
+        }
+        const auto values = target.values(wi, wo);
+        std::size_t without = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const auto& value = values[i];
             if (!value) {
                 ++without;
                 continue;
             }
-            const std::size_t at = std::size_t(k) * n + l;
+            const std::size_t at = std::size_t(k) * n + column[i];
             m.known[at] = 1;
             for (int c = 0; c < 3; ++c) {
                 m.values[c][at] = (*value)[c];
@@ -46,7 +51,7 @@ FactorMatrix sample_matrix(const Target& target, const FactorGrid& grid) {
             }
             if (value->x != value->y || value->x != value->z) coloured = true;
         }
-        below += hidden;
+        below += std::size_t(n) - values.size();
         missing += without;
     });
     m.below = below;
