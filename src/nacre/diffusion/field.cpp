@@ -57,6 +57,20 @@ BandDoubles surface_fluence(const CellGrid& grid, const DiffusionMatter& matter,
     return sum;
 }
 
+BandDoubles flux_at(const CellGrid& grid, std::span<const BandDoubles> of_cut, const Vec3d& p) {
+    BandDoubles result(0.);
+    if (of_cut.empty()) return result;
+    const CellMix mix = cells_around(grid, p);
+    double weight = 0.;
+    for (int i = 0; i < mix.count; ++i) {
+        const std::int32_t cut = grid.cut_number(mix.cell[std::size_t(i)]);
+        if (cut < 0) continue;
+        result += of_cut[std::size_t(cut)] * BandDoubles(mix.weight[std::size_t(i)]);
+        weight += mix.weight[std::size_t(i)];
+    }
+    return weight > 0. ? result * BandDoubles(1. / weight) : result;
+}
+
 EnergyBalance energy_balance(const CellGrid& grid, const DiffusionMatter& matter,
                              const DiffusionProblem& problem, std::span<const BandDoubles> phi,
                              std::span<const BandDoubles> q) {

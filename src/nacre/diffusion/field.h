@@ -25,6 +25,10 @@ BandDoubles surface_fluence(const CellGrid& grid, const DiffusionMatter& matter,
                             std::span<const BandDoubles> phi, const Vec3d& p, const Vec3d& n,
                             BandDoubles q = BandDoubles(0.));
 
+/// What is given for each cut, at a place of the surface: the mean over the cells around that are
+/// cut, by their weights; 0 if `of_cut` is empty.
+BandDoubles flux_at(const CellGrid& grid, std::span<const BandDoubles> of_cut, const Vec3d& p);
+
 /// Of volumetric sources: what leaves, per area.
 inline BandDoubles exitance(double boundary, BandDoubles phi) {
     return phi * BandDoubles(0.5 / boundary);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <string>
 
 #include "nacre/math/error.h"
 
@@ -54,14 +52,6 @@ void check_memory(const Mesh& mesh, double cells, double limit, std::string_view
                     "or less",
                     option, cells, all.cells, all.bytes * 1e-9, limit * 1e-9, option,
                     std::int64_t(std::floor(low))));
-}
-
-double available_memory() {
-    std::ifstream file("/proc/meminfo");
-    std::string name, unit;
-    for (double kib = 0.; file >> name >> kib; std::getline(file, unit))
-        if (name == "MemAvailable:") return kib * 1024.;
-    return 0.;
 }
 
 }  // namespace nacre

@@ -1,5 +1,7 @@
 #pragma once
 // What a diffusion problem takes, before any of it is allocated.
+#include <string_view>
+
 #include "nacre/diffusion/cut_cells.h"
 
 namespace nacre {
@@ -15,8 +17,5 @@ DiffusionMemory diffusion_memory(const Mesh& mesh, const GridFrame& frame);
 /// Throws InputError if that is more than `limit` bytes, with the largest number of cells along the
 /// longest side that would do. `option` is what the user calls that number.
 void check_memory(const Mesh& mesh, double cells, double limit, std::string_view option);
-
-/// The machine's memory that is free, in bytes; 0 if it does not tell.
-double available_memory();
 
 }  // namespace nacre
