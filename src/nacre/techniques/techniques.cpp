@@ -16,7 +16,8 @@ namespace nacre {
     X(local_scattering)     \
     X(surface_sampling)     \
     X(random_walk)          \
-    X(two_pass)
+    X(two_pass)             \
+    X(diffusion_grid)
 
 #define NACRE_DECLARE_TECHNIQUE(name) const TechniqueDescription& name##_technique();
 NACRE_TECHNIQUES(NACRE_DECLARE_TECHNIQUE)
