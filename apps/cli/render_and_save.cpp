@@ -103,6 +103,14 @@ int render_and_save(const Scene& scene, const RenderPlan& plan, const SaveOption
         return render(scene, plan, FrameSettings::of(scene), o);
     }();
 
+    // A sliver of a cell at a rim is no thin part.
+    if (options.strict)
+        for (const Statistic& s : result.statistics)
+            if (s.name == "unresolved_surface" && s.value > 0.01)
+                throw RunError(fmt::format(
+                    "{:.2g} % of the surface is of parts thinner than two cells of the diffusion "
+                    "grid; --strict: {} was not written; set cells to more",
+                    s.value, options.output.string()));
     const std::string invalid = describe_invalid(result.film);
     if (!invalid.empty() && options.strict)
         throw RunError(

@@ -179,6 +179,33 @@ TEST_F(CommandLine, CtrlCSavesWhatThereIsAndExitsWith130) {
 }
 
 /// Two lights that a float holds each but not together: the lit side of the sphere is infinite.
+// A plate of half a cell: rendered, counted, and refused if strict.
+TEST_F(CommandLine, PartsThinnerThanTheDiffusionGridAreFatalIfStrict) {
+    std::ofstream(folder_ / "plate.xml")
+        << "<scene version=\"3.0.0\"><integrator type=\"path\"/>"
+           "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"0,0,4\" "
+           "target=\"0,0,0\" up=\"0,1,0\"/></transform></sensor><emitter type=\"constant\"/>"
+           "<shape type=\"cube\"><transform name=\"to_world\"><scale x=\"1\" y=\"1\" z=\"0.02\"/>"
+           "</transform><bsdf type=\"dielectric\"/><medium type=\"homogeneous\" "
+           "name=\"interior\"><float name=\"sigma_s\" value=\"5\"/><float name=\"sigma_a\" "
+           "value=\"0.1\"/></medium></shape></scene>";
+    const std::string command =
+        "render plate.xml --technique diffusion_grid --set cells=24 --size 4x4 --spp 1 -o a.exr "
+        "--quiet";
+    const Outcome strict = nacre(command + " --strict");
+    EXPECT_EQ(strict.code, 1);
+    EXPECT_EQ(strict.err,
+              "nacre: 1e+02 % of the surface is of parts thinner than two cells of the diffusion "
+              "grid; --strict: a.exr was not written; set cells to more\n");
+    EXPECT_EQ(std::ranges::count(written(), "a.exr"), 0);
+    EXPECT_EQ(nacre(command).code, 0);
+    EXPECT_EQ(
+        nacre("render plate.xml --technique diffusion_grid --set cells=160 --size 4x4 --spp 1 "
+              "-o b.exr --quiet --strict")
+            .code,
+        0);
+}
+
 TEST_F(CommandLine, InvalidSamplesAreReportedAndFatalIfStrict) {
     std::string scene = quick_scene;
     scene.replace(scene.find("0.5, 0.5, 0.5"), 13, "3.4e38, 0, 0");

@@ -37,7 +37,7 @@ TEST_F(ExampleTechnique, AppearsInTheListsOfModels) {
     EXPECT_NE(nacre("models").out.find("\n  thickness              attenuation by thickness (S. "
                                        "Green, 2004)\n"),
               std::string::npos);
-    EXPECT_NE(nacre("render --help").out.find("two_pass, thickness"), std::string::npos);
+    EXPECT_NE(nacre("render --help").out.find("diffusion_grid, thickness"), std::string::npos);
     const auto json = nlohmann::json::parse(nacre("models show thickness --json").out);
     EXPECT_EQ(json["kind"], "technique");
     EXPECT_EQ(json["may_change"], "view, light, geometry");

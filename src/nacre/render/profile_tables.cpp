@@ -25,12 +25,31 @@ class MultipliedProfile final : public RadialProfile {
     double factor_;
 };
 
+/// Of an uneven medium means over a lattice in the volume's bounds.
+MediumCoefficients mean_coefficients(const Medium& medium, const Wavelengths& w) {
+    const Volume* volume =
+        medium.sigma_t_volume ? medium.sigma_t_volume.get() : medium.albedo_volume.get();
+    const Box3f box = volume ? volume->bounds() : Box3f{};
+    const Vec3f size = box.diagonal();
+    if (!volume || !(std::max({size.x, size.y, size.z}) < 1e20f)) return medium.coefficients({}, w);
+    constexpr int n = 16;
+    MediumCoefficients mean{Spectral(0.f), Spectral(0.f)};
+    const auto at = [](int i) { return (float(i) + 0.5f) / float(n); };
+    for (int i = 0; i < n * n * n; ++i) {
+        const Vec3f part(at(i % n), at(i / n % n), at(i / (n * n)));
+        const MediumCoefficients c = medium.coefficients(box.lower + part * size, w);
+        mean.sigma_s += c.sigma_s * Spectral(1.f / float(n * n * n));
+        mean.sigma_t += c.sigma_t * Spectral(1.f / float(n * n * n));
+    }
+    return mean;
+}
+
 }  // namespace
 
 std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, const Bands& bands) {
     std::vector<ProfileMedium> result;
     for (int g = 0; g < bands.groups(); ++g) {
-        const MediumCoefficients c = medium.coefficients({}, bands.group(g));
+        const MediumCoefficients c = mean_coefficients(medium, bands.group(g));
         for (int i = 0; i < 4 && int(result.size()) < bands.count(); ++i)
             result.push_back({.sigma_s = c.sigma_s[i],
                               .sigma_a = std::max(0.f, c.sigma_t[i] - c.sigma_s[i]),

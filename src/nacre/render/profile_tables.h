@@ -7,7 +7,8 @@
 
 namespace nacre {
 
-/// The coefficients of a homogeneous medium in each band, per scene unit, as profiles take them.
+/// The coefficients of a medium in each band, per scene unit, as profiles take them: of one that
+/// varies in space, means over the volume that describes it.
 std::vector<ProfileMedium> medium_in_bands(const Medium& medium, float eta, const Bands& bands);
 
 /// R(r) of the medium in every band. Lengths are scene units.

@@ -15,6 +15,8 @@
 
 namespace nacre {
 
+class PathTracer;
+
 /// Where light enters a translucent object: a diffuse "reflector" of albedo 1 whose light passes
 /// the boundary, T(w_i) / pi. A path that goes on from an entry point goes on from this material.
 class EntryLobe final : public Material {
@@ -51,8 +53,17 @@ class Translucency {
     virtual Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                              const Wavelengths& wavelengths, RayCounts& counts) const = 0;
 
+    /// What a change of lights is told with.
+    struct Relight {
+        const PathTracer& light;  ///< as it is now: for light that falls on the shape
+        Statistics& statistics;
+        const Work& work;
+    };
     /// The same matter under the lights that the scene has now; null: it holds nothing of lights.
-    virtual std::shared_ptr<const Translucency> relit() const { return nullptr; }
+    virtual std::shared_ptr<const Translucency> relit(const Relight& now) const {
+        (void)now;
+        return nullptr;
+    }
 
     const ObjectBoundary& boundary() const { return boundary_; }
     /// What a path goes on from at an entry: a "reflector" towards the `wo` of `emerge`, without

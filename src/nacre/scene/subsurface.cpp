@@ -90,7 +90,11 @@ void read_subsurface(const SceneNode& node, ShapeBinding& shape, bool has_materi
 }
 
 bool is_translucent(const ShapeBinding& shape) {
-    return shape.interior && !shape.exterior && shape.interior->homogeneous() &&
+    return holds_translucent_medium(shape) && shape.interior->homogeneous();
+}
+
+bool holds_translucent_medium(const ShapeBinding& shape) {
+    return shape.interior && !shape.exterior &&
            (boundary_eta(shape) != 1.f || shape.material->smooth_boundary_eta() > 0.f ||
             shape.material->flags() == has_null);
 }

@@ -29,6 +29,8 @@ std::span<const std::string_view> subsurface_parameters();
 /// Whether a technique can take the shape for a translucent object: its boundary refracts, smooth
 /// or rough, or is not there, and it has a homogeneous medium inside.
 bool is_translucent(const ShapeBinding& shape);
+/// The same with any medium inside, uneven ones included.
+bool holds_translucent_medium(const ShapeBinding& shape);
 /// Index inside over outside of a translucent shape; 1 if nothing refracts.
 float boundary_eta(const ShapeBinding& shape);
 

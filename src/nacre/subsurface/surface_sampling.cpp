@@ -85,7 +85,7 @@ Translucency::Emergence SurfaceSampling::emerge(const SurfacePoint& exit, const 
     return result;
 }
 
-TranslucencyPtr SurfaceSampling::relit() const {
+TranslucencyPtr SurfaceSampling::relit(const Relight&) const {
     if (!single_) return nullptr;
     auto same = std::make_shared<SurfaceSampling>(*this);
     same->single_ = std::make_shared<SingleScatteringTerm>(scene_, shape_, boundary());

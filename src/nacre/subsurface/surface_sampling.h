@@ -25,7 +25,7 @@ class SurfaceSampling final : public Translucency {
     Emergence emerge(const SurfacePoint& exit, const Vec3f& wo, Sampler& sampler,
                      const Wavelengths& wavelengths, RayCounts& counts) const override;
 
-    TranslucencyPtr relit() const override;
+    TranslucencyPtr relit(const Relight&) const override;
 
   private:
     const Scene& scene_;

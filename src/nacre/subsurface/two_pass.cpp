@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <chrono>
-
 #include "nacre/bssrdf/better_dipole.h"
 #include "nacre/bssrdf/dipole.h"
 #include "nacre/geometry/area_sampler.h"
@@ -13,7 +11,8 @@
 #include "nacre/math/error.h"
 #include "nacre/render/path_tracer.h"
 #include "nacre/render/profile_tables.h"
-#include "nacre/spectrum/cie.h"
+#include "nacre/subsurface/daylight.h"
+#include "nacre/subsurface/stopwatch.h"
 #include "nacre/technique/common_parameters.h"
 
 namespace nacre {
@@ -32,29 +31,6 @@ constexpr double most_spacing = 100.;
 const std::array<Choice, 3> point_methods{{{"random", "independently"},
                                            {"repulsion", "by forces between them"},
                                            {"elimination", "of candidates, the closest first"}}};
-
-class Stopwatch {
-  public:
-    /// Seconds since the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double s = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
-        return s;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Daylight in the lanes of a path; 1 in RGB bands. Irradiance is interpolated between bands as a
-/// multiple of it: the lines of the sun are in most scenes' light, and narrower than bands.
-Spectral daylight(const Wavelengths& w) {
-    if (w.mode == ColorMode::rgb_bands) return Spectral(1.f);
-    Spectral r;
-    for (int i = 0; i < Spectral::size; ++i) r.set(i, cie_d65(w.lambda[i]));
-    return r;
-}
 
 /// The points of a shape as the ray scene knows them.
 struct ShapePoints {

@@ -82,7 +82,8 @@ class PathTechnique final : public Technique {
             const TechniqueDescription* technique = shapes_[i].technique;
             if (!technique) continue;
             if (matter_[i] && what.within(technique->keeps)) {
-                if (TranslucencyPtr relit = what.light ? matter_[i]->relit() : nullptr)
+                if (TranslucencyPtr relit =
+                        what.light ? matter_[i]->relit({light, statistics, work}) : nullptr)
                     matter_[i] = std::move(relit);
                 continue;
             }

@@ -91,6 +91,8 @@ struct TechniqueDescription {
     /// The settings at which comparisons run it, separated by '|', each "name=value name=value";
     /// all else is as by default. Empty: the defaults alone.
     std::string_view variants = "";
+    /// Takes media that vary in space; others leave shapes with such a medium alone.
+    bool takes_volumes = false;
     /// It is complete simulation: what others are measured against.
     bool simulates = false;
     /// Makes it for a scene all of whose translucent shapes are its own or, for techniques that

@@ -109,16 +109,18 @@ RenderPlan plan_of(const Scene& scene, const TechniqueChoice& wanted) {
     bool any = false;
     for (const ShapeBinding& shape : scene.shapes) {
         ShapeTechnique& s = plan.shapes.emplace_back();
-        if (technique.simulates || !is_translucent(shape)) continue;
+        const bool takes =
+            technique.takes_volumes ? holds_translucent_medium(shape) : is_translucent(shape);
+        if (technique.simulates || !takes) continue;
         any = true;
         s = shape_technique(technique, shape.subsurface ? *shape.subsurface : SubsurfaceSettings{},
                             choice);
     }
     if (!any && !technique.simulates)
         throw InputError(fmt::format(
-            "technique '{}' has nothing to do: no shape has a homogeneous medium inside behind a "
+            "technique '{}' has nothing to do: no shape has a {}medium inside behind a "
             "dielectric boundary, smooth or equally rough everywhere, without dispersion or tint",
-            technique.name));
+            technique.name, technique.takes_volumes ? "" : "homogeneous "));
     return plan;
 }
 

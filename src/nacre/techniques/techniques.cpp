@@ -24,6 +24,7 @@ namespace nacre {
     X(surface_sampling)     \
     X(random_walk)          \
     X(two_pass)             \
+    X(diffusion_grid)       \
     NACRE_REALTIME_TECHNIQUES(X)
 
 #define NACRE_DECLARE_TECHNIQUE(name) const TechniqueDescription& name##_technique();

@@ -1,6 +1,6 @@
 #pragma once
 // Files of scattering reference vectors, {group: rows}: phase functions, Fresnel, diffusion
-// profiles, layers, tissue. Every group has a function that goes over its rows and compares each
+// profiles, layers, tissue, the diffusion equation. Every group has a function that goes over its rows and compares each
 // number that the library can tell.
 #include <cmath>
 #include <limits>
@@ -79,6 +79,7 @@ void compare_kubelka_munk(const nlohmann::json& group, Comparison& result);
 void compare_hanrahan_krueger(const nlohmann::json& group, Comparison& result);
 void compare_slab(const nlohmann::json& group, Comparison& result);
 void compare_half_space(const nlohmann::json& group, Comparison& result);
+void compare_diffusion(const nlohmann::json& group, Comparison& result);
 void compare_monte_carlo(const nlohmann::json& group, Comparison& result);
 void compare_anchors(const nlohmann::json& group, Comparison& result);
 
