@@ -7,10 +7,11 @@
 // As in the paper: places by importance of R, its density carried from the plane to the surface by
 // cosines and distances (estimator=weighted), or the plain mean (estimator=fast). Otherwise than
 // there: half of the places are drawn on a plane across the camera's rays, so that silhouettes, where
-// the tangent plane is seen from its edge, are as quiet as the rest (balance heuristic over planes
-// and bands); and what the camera does not see is looked up in the lights' pictures
-// (pictures=camera leaves it out, as the paper does). Each place on the surface counts once: by the
-// share that the camera's picture has of it, the rest in each light's picture.
+// the tangent plane is seen from its edge, are quiet, too (balance heuristic over planes and bands);
+// and what the camera does not see is looked up in the lights' pictures, on planes across their rays
+// at the point and at the depth at which light enters (pictures=camera leaves it out, as the paper
+// does). Each place on the surface counts once: by the share that the camera's picture has of it, the
+// rest in each light's picture.
 //
 // Its limits: light that enters where neither the camera nor, first of all, a light sees the surface
 // does not exist; distances are straight, through gaps of concave objects too; small `samples` are
@@ -49,8 +50,7 @@ class ImageSpace final : public RealtimeTechnique {
     void add_light(const CameraSurface& camera, const LightSurface& light,
                    const Texture& below) override {
         if (estimator_ == Estimator::fast || pictures_ == Pictures::camera) return;
-        auto pass =
-            gpu_.compute("image space, lights", gpu_.program("image_space.glsl", "LIGHT"));
+        auto pass = gpu_.compute("image space, lights", gpu_.program("image_space.glsl", "LIGHT"));
         pass.reads(3, light.position).reads(4, light.entered);
         set_picture(pass, "light", light.view);
         run(pass, camera, light.light.color * exit_scale_, below);
@@ -102,22 +102,23 @@ const TechniqueDescription& image_space_technique() {
          .how = "in real time: around each visible point places are drawn by importance of R and "
                 "looked up in the camera's picture of the irradiance; where the camera does not "
                 "look, in the lights' pictures",
-         .parameters =
-             {profile_parameter(),
-              exit_fresnel_parameter(),
-              {.name = "samples",
-               .meaning = "places a pixel, in the camera's picture and in each light's",
-               .kind = ParameterKind::integer,
-               .low = 6,
-               .high = 4096,
-               .otherwise = 64},
-              choice_parameter("estimator", "how places are weighed",
-                               {{"weighted", "by R and by their areas"},
-                                {"fast", "alike: even light comes out exactly, from the camera's "
-                                         "picture alone"}}),
-              choice_parameter("pictures", "where light that entered is looked for",
-                               {{"camera_and_lights", "lights' pictures where the camera's ends"},
-                                {"camera", "as in the paper: none comes from behind"}})},
+         .parameters = {profile_parameter(),
+                        exit_fresnel_parameter(),
+                        {.name = "samples",
+                         .meaning = "places a pixel, in the camera's picture and in each light's",
+                         .kind = ParameterKind::integer,
+                         .low = 6,
+                         .high = 4096,
+                         .otherwise = 64},
+                        choice_parameter("estimator", "how places are weighed",
+                                         {{"weighted", "by R and by their areas"},
+                                          {"fast",
+                                           "alike: even light comes out exactly, from the camera's "
+                                           "picture alone"}}),
+                        choice_parameter(
+                            "pictures", "where light that entered is looked for",
+                            {{"camera_and_lights", "lights' pictures where the camera's ends"},
+                             {"camera", "as in the paper: none comes from behind"}})},
          .realtime = [](const RealtimeInput& in) -> std::unique_ptr<RealtimeTechnique> {
              return std::make_unique<ImageSpace>(in);
          }});

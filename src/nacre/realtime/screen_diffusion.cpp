@@ -68,8 +68,9 @@ const TechniqueDescription& screen_diffusion_technique() {
          .year = 2018,
          .paper = "Efficient Screen-Space Subsurface Scattering Using Burley's Normalized "
                   "Diffusion in Real-Time, SIGGRAPH 2018 course",
-         .how = "in real time: the camera's picture of the irradiance is averaged around each pixel "
-                "at places with the density of R, weighed by R of their distance in space",
+         .how =
+             "in real time: the camera's picture of the irradiance is averaged around each pixel "
+             "at places with the density of R, weighed by R of their distance in space",
          .parameters = {profile_parameter(),
                         exit_fresnel_parameter(),
                         {.name = "samples",

@@ -79,7 +79,8 @@ class Separable final : public RealtimeTechnique {
                 const auto left_of = [&](double a) {
                     return 0.5 + std::copysign(0.5, a) * band.within(std::abs(a));
                 };
-                const double from = i == 0 ? 0 : left_of(low), to = i + 1 == taps ? 1 : left_of(high);
+                const double from = i == 0 ? 0 : left_of(low),
+                             to = i + 1 == taps ? 1 : left_of(high);
                 table.push_back(float(to - from));
             }
             table.push_back(float(x));
@@ -132,8 +133,9 @@ const TechniqueDescription& separable_technique() {
                     "J. von der Pahlen, M. Wimmer, D. Gutierrez",
          .year = 2015,
          .paper = "Separable Subsurface Scattering, Computer Graphics Forum 34 (6)",
-         .how = "in real time: the camera's picture of the irradiance is blurred across and down by "
-                "R integrated along lines",
+         .how =
+             "in real time: the camera's picture of the irradiance is blurred across and down by "
+             "R integrated along lines",
          .parameters = {profile_parameter(),
                         exit_fresnel_parameter(),
                         {.name = "taps",
@@ -143,8 +145,9 @@ const TechniqueDescription& separable_technique() {
                          .high = 64,
                          .otherwise = 12},
                         {.name = "following",
-                         .meaning = "how soon a difference of depth, over the kernel's reach, parts "
-                                    "surfaces",
+                         .meaning =
+                             "how soon a difference of depth, over the kernel's reach, parts "
+                             "surfaces",
                          .low = 0.,
                          .high = 100.,
                          .otherwise = 1.}},

@@ -87,16 +87,17 @@ float density(Plane m, vec3 x, vec3 ray) {
 }
 
 #ifdef LIGHT
-// Whether the camera's picture shows x, and at which cosine.
-float cosine_in_camera(vec3 x, float texel) {
+// Whether the camera's picture shows x, whose normal is n, and at which cosine. The other side of a
+// thin wall may lie within a pixel's width: it faces away.
+float cosine_in_camera(vec3 x, vec3 n, float texel) {
     ivec2 at;
     float w;
     if (!find_pixel(camera, x, textureSize(position_picture, 0), at, w)) return 0;
     vec4 seen = texelFetch(position_picture, at, 0);
     if (int(seen.w) - 1 != part) return 0;
-    vec3 n = texelFetch(normal_picture, at, 0).xyz, d = x - seen.xyz;
-    float cosine = -dot(ray_to(camera, x), n), pixel = camera.pixel * w;
-    bool here = abs(dot(d, n)) < 2 * pixel + texel &&
+    vec3 shown = texelFetch(normal_picture, at, 0).xyz, d = x - seen.xyz;
+    float cosine = -dot(ray_to(camera, x), shown), pixel = camera.pixel * w;
+    bool here = dot(n, shown) > 0 && abs(dot(d, shown)) < 2 * pixel + texel &&
                 length(d) < 3 * pixel / max(cosine, 0.05) + texel;
     return here ? cosine : 0;
 }
@@ -126,7 +127,7 @@ vec3 gathered(vec3 x) {
     vec3 r = profile(distance(o, y));
 #ifdef LIGHT
     float cosine_w = (light.clip * vec4(y, 1)).w, texel = light.pixel * cosine_w;
-    float share = 1 - camera_share(cosine_in_camera(y, texel));
+    float share = 1 - camera_share(cosine_in_camera(y, n, texel));
     // The beam of a texel, per solid angle or per area across it.
     float c = light.parallel != 0 ? 1 : cosine_w / distance(y, light.eye);
     return r * (entered.w * share / (light.pixel * light.pixel * c * c * c * p));
@@ -143,11 +144,11 @@ void main() {
     vec4 position = texelFetch(position_picture, pixel, 0);
     if (int(position.w) - 1 != part) return;
     o = position.xyz;
-    vec3 normal = texelFetch(normal_picture, pixel, 0).xyz;
     vec2 noise = pixel_noise(pixel, frame_shift);
 
-    // The tangent plane, on which places lie about as far as on the surface, and one across the
-    // rays, onto which what a picture shows falls without foreshortening.
+    // Planes across the picture's rays: no distance on them is longer than that on the surface, so
+    // that no place is drawn too seldom. Besides, in the camera's picture, the tangent plane, on which
+    // foreshortened surfaces are drawn as they lie; in a light's, one at the depth where it enters.
 #ifdef FAST
     ivec2 counts = ivec2(samples, 0);
 #else
@@ -163,7 +164,12 @@ void main() {
     if (around.w > 0.01) depth = min(abs(dot(o - around.xyz / around.w, across)), deepest);
 #endif
     int orders[2][3], bands[2];
-    planes[0] = make_plane(normal, 0, counts[0], orders[0], bands[0]);
+#ifdef LIGHT
+    vec3 first = across;
+#else
+    vec3 first = texelFetch(normal_picture, pixel, 0).xyz;
+#endif
+    planes[0] = make_plane(first, 0, counts[0], orders[0], bands[0]);
     planes[1] = make_plane(across, depth, counts[1], orders[1], bands[1]);
 
     vec3 sum = vec3(0), weights = vec3(0);
@@ -174,12 +180,14 @@ void main() {
         vec3 t = cross(m.normal, s);
         for (int j = 0; j < counts[i]; ++j) {
             int order = j % bands[i], band = orders[i][order];
+            int k = j / bands[i];
             float n = float(count_of(counts[i], order, bands[i]));
-            float v = (float(j / bands[i]) + fract(noise.x + float(order) / 3)) / n;
+            float v = (float(k) + fract(noise.x + float(order) / 3)) / n;
             float r = radius_beyond(m.log_start[band] - log(1 - v), band);
             float rho = sqrt(max(r * r - m.z * m.z, 0));
-            // Turned by the golden angle from one to the next.
-            float angle = 6.2831853 * fract(float(j) * 0.61803399 + noise.y + 0.5 * float(i));
+            // Turned by the golden angle from one of a band to the next.
+            float angle = 6.2831853 * fract(float(k) * 0.61803399 + noise.y + float(order) / 3 +
+                                            0.5 * float(i));
             vec3 x = o + rho * (cos(angle) * s + sin(angle) * t);
 #ifdef FAST
             ivec2 at;
@@ -189,8 +197,8 @@ void main() {
             // What lies far from where it was looked for is another part of the surface.
             if (int(seen.w) - 1 != part || distance(seen.xyz, x) > rho + 2 * camera.pixel * w)
                 continue;
-            vec3 k = profile(r);
-            vec3 weight = k / dot(m.factor, k);
+            vec3 here = profile(r);
+            vec3 weight = here / dot(m.factor, here);
             sum += weight * texelFetch(lit_picture, at, 0).rgb;
             weights += weight;
 #else
