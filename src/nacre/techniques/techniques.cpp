@@ -11,7 +11,12 @@
 namespace nacre {
 // Those on the GPU, if the library was built with them.
 #ifdef NACRE_REALTIME
-#define NACRE_REALTIME_TECHNIQUES(X) X(translucent_shadow_map)
+#define NACRE_REALTIME_TECHNIQUES(X) \
+    X(translucent_shadow_map)        \
+    X(image_space)                   \
+    X(screen_diffusion)              \
+    X(separable)                     \
+    X(thickness_trick)
 #else
 #define NACRE_REALTIME_TECHNIQUES(X)
 #endif
