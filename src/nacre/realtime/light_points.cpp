@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nacre/realtime/moved_light.h"
 #include "nacre/spectrum/color.h"
 
 namespace nacre {
@@ -45,12 +46,9 @@ std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, 
                 p.distance2 = s.distance * s.distance;
                 // A lamp's surface there, whose light falls off to its sides.
                 if (!light.is_delta()) {
-                    const Ray back{p.position - s.wi * (1e-3f * s.distance), s.wi, 0.f,
-                                   2e-3f * s.distance};
-                    if (const auto hit = scene.rays.intersect(back)) {
-                        const SurfacePoint at = scene.rays.surface_point(back, *hit);
-                        if (scene.shapes[at.shape].light == &light) p.normal = at.ng;
-                    }
+                    const auto* moved = dynamic_cast<const MovedLight*>(&light);
+                    p.normal = moved ? moved->surface_normal(p.position, s.wi, s.distance)
+                                     : lamp_normal(scene, light, p.position, s.wi, s.distance);
                 }
             }
             result.push_back(p);
