@@ -27,6 +27,7 @@ namespace {
 
 constexpr Verb verbs[] = {
     {"render", "render a scene (.xml) or a bare mesh in a translucent material", set_up_render},
+    {"view", "look at translucent objects in a window, by techniques in real time", set_up_view},
     {"demo", "render the built-in scene", set_up_demo},
     {"models", "list materials, media, profiles, techniques, phase functions and integrators",
      set_up_models},

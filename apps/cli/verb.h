@@ -49,6 +49,7 @@ Action set_up_diff(CLI::App& app, const Invocation& invocation);
 Action set_up_merge(CLI::App& app, const Invocation& invocation);
 Action set_up_compare(CLI::App& app, const Invocation& invocation);
 Action set_up_image(CLI::App& app, const Invocation& invocation);
+Action set_up_view(CLI::App& app, const Invocation& invocation);
 Action set_up_gallery(CLI::App& app, const Invocation& invocation);
 
 }  // namespace nacre::cli

@@ -72,6 +72,11 @@ void FrameRenderer::changed(const Changes& what, const Work& work) {
     if (!what.within({.view = true, .light = true})) make_parts(work);
 }
 
+void FrameRenderer::set_techniques(std::vector<ShapeTechnique> shapes, const Work& work) {
+    techniques_ = std::move(shapes);
+    make_parts(work);
+}
+
 void FrameRenderer::make_parts(const Work& work) {
     parts_.clear();
     std::vector<float> table;

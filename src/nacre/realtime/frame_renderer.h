@@ -26,6 +26,9 @@ class FrameRenderer {
 
     /// The scene changed in these parts.
     void changed(const Changes& what, const Work& work = {});
+    /// Other techniques, or others of their options, for the same translucent shapes. Throws
+    /// InputError as the constructor does; the frames are then those of no technique.
+    void set_techniques(std::vector<ShapeTechnique> shapes, const Work& work = {});
     void deform(const Deformation& deformation) { scene_.deform(gpu_, deformation); }
     /// How visibility is found, of all views from now on.
     void set_visibility(VisibilityMethod method) { visibility_ = method; }

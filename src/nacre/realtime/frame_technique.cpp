@@ -10,6 +10,7 @@
 #include "nacre/math/error.h"
 #include "nacre/math/random.h"
 #include "nacre/realtime/frame_renderer.h"
+#include "nacre/realtime/frame_sample.h"
 #include "nacre/realtime/realtime_description.h"
 #include "nacre/render/filter.h"
 #include "nacre/render/noise.h"
@@ -84,8 +85,7 @@ RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOpti
     if (rendering.halves)
         for (int i = 0; i < 2; ++i) result.halves.emplace_back(frame.film);
     const Filter filter(frame.film.filter);
-    // Other seeds begin elsewhere in the sequences.
-    const std::uint32_t first = std::uint32_t(stream_key(frame.sampler.seed, 0x6672616dull) >> 44);
+    const std::uint32_t first = first_frame(frame.sampler.seed);
     const std::uint32_t total = std::uint32_t(samples);
     double checkpoint = 0;
     std::vector<PassTime> passes;  // of the last frame
@@ -94,8 +94,7 @@ RenderResult FrameTechnique::render(const FrameSettings& frame, const RenderOpti
             result.complete = false;
             break;
         }
-        Random random(stream_key(frame.sampler.seed, done));
-        const FilterSample at = filter.sample(random.next2());
+        const FilterSample at = frame_sample(filter, frame.sampler.seed, done);
         const View view =
             camera_view(*frame.camera, frame.film, at.offset, renderer_->scene().bounds());
         const bool last = done + 1 == total;

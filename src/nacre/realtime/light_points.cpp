@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "nacre/realtime/moved_light.h"
 #include "nacre/spectrum/color.h"
 
 namespace nacre {
@@ -79,15 +80,9 @@ std::vector<LightPoint> light_points(const Scene& scene, const Point3f& middle, 
                 p.position = middle + s.wi * s.distance;
                 p.distance2 = s.distance * s.distance;
                 // A lamp's surface there, whose light falls off to its sides.
-                const Ray back{p.position - s.wi * (1e-3f * s.distance), s.wi, 0.f,
-                               2e-3f * s.distance};
-                if (const auto hit = scene.rays.intersect(back)) {
-                    const SurfacePoint at = scene.rays.surface_point(back, *hit);
-                    // A ball gives the same to all sides, whichever of its points stand for it.
-                    const Primitive* primitive = scene.rays.primitive(at.shape);
-                    const bool ball = primitive && std::holds_alternative<Sphere>(*primitive);
-                    if (scene.shapes[at.shape].light == &light && !ball) p.normal = at.ng;
-                }
+                const auto* moved = dynamic_cast<const MovedLight*>(&light);
+                p.normal = moved ? moved->surface_normal(p.position, s.wi, s.distance)
+                                 : lamp_normal(scene, light, p.position, s.wi, s.distance);
             }
             result.push_back(p);
         }
