@@ -87,17 +87,17 @@ float density(Plane m, vec3 x, vec3 ray) {
 }
 
 #ifdef LIGHT
-// Whether the camera's picture shows x, whose normal is n, and at which cosine. The other side of a
-// thin wall may lie within a pixel's width: it faces away.
+// The cosine at which the camera's picture shows x, whose normal is n; 0: it does not. What lies just
+// behind a silhouette or a thin wall falls onto pixels that show places near by: it faces away.
 float cosine_in_camera(vec3 x, vec3 n, float texel) {
     ivec2 at;
-    float w;
-    if (!find_pixel(camera, x, textureSize(position_picture, 0), at, w)) return 0;
+    float w, cosine = -dot(ray_to(camera, x), n);
+    if (cosine <= 0 || !find_pixel(camera, x, textureSize(position_picture, 0), at, w)) return 0;
     vec4 seen = texelFetch(position_picture, at, 0);
     if (int(seen.w) - 1 != part) return 0;
-    vec3 shown = texelFetch(normal_picture, at, 0).xyz, d = x - seen.xyz;
-    float cosine = -dot(ray_to(camera, x), shown), pixel = camera.pixel * w;
-    bool here = dot(n, shown) > 0 && abs(dot(d, shown)) < 2 * pixel + texel &&
+    vec3 d = x - seen.xyz;
+    float pixel = camera.pixel * w;
+    bool here = abs(dot(d, texelFetch(normal_picture, at, 0).xyz)) < 2 * pixel + texel &&
                 length(d) < 3 * pixel / max(cosine, 0.05) + texel;
     return here ? cosine : 0;
 }
