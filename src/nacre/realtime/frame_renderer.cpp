@@ -157,8 +157,7 @@ void FrameRenderer::light(const View&, const CameraSurface& camera, Part& part,
                           bool last) {
     const GpuShape& shape = scene_.shapes()[part.part];
     const Point3f middle = shape.bounds.center();
-    // Bent, it may leave its ball: by a third of its size at most in what viewers offer.
-    const float radius = shape.radius * (scene_.deformed() ? 1.33f : 1.01f);
+    const float radius = shape.radius * 1.01f;
     const View view = point.parallel
                           ? parallel_view(point.position, middle, radius, options.light_view)
                           : light_view(point.position, middle, radius, options.light_view);

@@ -104,10 +104,8 @@ void GpuScene::make_geometry(const Work& work) {
         for (std::size_t k = 0; k < v.positions.size(); ++k) {
             positions.push_back(with(v.positions[k], 1.f));
             normals.push_back(with(v.normals[k], 0.f));
-            s.bounds.extend(v.positions[k]);
         }
-        for (const Point3f& p : v.positions)
-            s.radius = std::max(s.radius, length(p - s.bounds.center()));
+        s.set_bounds([&](std::uint32_t k) { return v.positions[k]; });
         if (s.kind != GpuShapeKind::lamp) {
             bounds_.extend(s.bounds);
             occluders_ = std::uint32_t(indices.size());
@@ -131,6 +129,9 @@ void GpuScene::make_geometry(const Work& work) {
     rest_positions_ = {};
     rest_normals_ = {};
     deformation_ = {};
+    rest_box_ = {};
+    for (const GpuShape& s : shapes_)
+        if (s.kind == GpuShapeKind::translucent) rest_box_.extend(s.bounds);
 }
 
 void GpuScene::make_materials() {
@@ -232,13 +233,9 @@ void GpuScene::deform(Gpu& gpu, const Deformation& deformation) {
         positions_ = Buffer(rest_positions_.bytes(), nullptr);
         normals_ = Buffer(rest_normals_.bytes(), nullptr);
     }
-    Box3f box;
     std::uint32_t vertices = 0;
     for (const GpuShape& s : shapes_)
-        if (s.kind == GpuShapeKind::translucent) {
-            box.extend(s.bounds);
-            vertices = s.first_vertex + s.vertices;
-        }
+        if (s.kind == GpuShapeKind::translucent) vertices = s.first_vertex + s.vertices;
     gpu.compute("deform", gpu.program("deform.glsl"))
         .reads(0, rest_positions_)
         .reads(1, rest_normals_)
@@ -249,9 +246,21 @@ void GpuScene::deform(Gpu& gpu, const Deformation& deformation) {
         .set("kind", int(deformation.kind))
         .set("amount", deformation.amount)
         .set("phase", deformation.phase)
-        .set("box_low", box.lower)
-        .set("box_size", box.diagonal())
+        .set("box_low", rest_box_.lower)
+        .set("box_size", rest_box_.diagonal())
         .threads(int(vertex_count_));
+    // Where they are now: lights' pictures are framed by it.
+    std::vector<Vec4> now(vertices);
+    positions_.read(0, vertices * sizeof(Vec4), now.data());
+    bounds_ = {};
+    for (GpuShape& s : shapes_) {
+        if (s.kind == GpuShapeKind::translucent)
+            s.set_bounds([&](std::uint32_t i) {
+                const Vec4& p = now[s.first_vertex + i];
+                return Point3f(p[0], p[1], p[2]);
+            });
+        if (s.kind != GpuShapeKind::lamp) bounds_.extend(s.bounds);
+    }
 }
 
 std::size_t GpuScene::bytes() const {

@@ -18,8 +18,18 @@ struct GpuShape {
     std::uint32_t shape = 0;  ///< of the scene
     std::uint32_t first_triangle = 0, triangles = 0;
     std::uint32_t first_vertex = 0, vertices = 0;
-    Box3f bounds = {};  ///< at rest
-    float radius = 0;   ///< of the ball about the middle of these that holds the shape at rest
+    Box3f bounds = {};
+    float radius = 0;  ///< of the ball about the middle of these that holds the shape
+
+    /// Of its vertices, by their numbers.
+    template <class F>
+    void set_bounds(F&& vertex) {
+        bounds = {};
+        radius = 0;
+        for (std::uint32_t i = 0; i < vertices; ++i) bounds.extend(vertex(i));
+        for (std::uint32_t i = 0; i < vertices; ++i)
+            radius = std::max(radius, length(vertex(i) - bounds.center()));
+    }
 };
 
 /// A bend of all translucent shapes, made on the device from the positions at rest.
@@ -43,8 +53,6 @@ class GpuScene {
     void changed(const Changes& what, const Work& work = {});
     /// Bends the translucent shapes; none: as they are.
     void deform(Gpu& gpu, const Deformation& deformation);
-
-    bool deformed() const { return deformation_.kind != Deformation::Kind::none; }
 
     const Scene& scene() const { return scene_; }
     /// Translucent ones first, lamps last.
@@ -79,6 +87,7 @@ class GpuScene {
     Buffer positions_, normals_, indices_, materials_;
     Buffer rest_positions_, rest_normals_;  // while deformed
     Deformation deformation_;
+    Box3f rest_box_;  // of the translucent shapes at rest
     Texture surroundings_, background_;
 };
 
