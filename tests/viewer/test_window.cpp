@@ -13,9 +13,9 @@ namespace {
 class ViewerWindow : public testing::Test {
   protected:
     void SetUp() override {
-        for (const char* program : {"xvfb-run", "xdotool"})
+        for (const char* program : {"xvfb-run", "xauth", "xdotool"})
             if (std::system(fmt::format("command -v {} >/dev/null", program).c_str()) != 0)
-                GTEST_SKIP() << program << " is not installed (Debian: xvfb, xdotool)";
+                GTEST_SKIP() << program << " is not installed (Debian: xvfb, xauth, xdotool)";
         try {
             const HeadlessContext context;
         } catch (const std::runtime_error& error) {
