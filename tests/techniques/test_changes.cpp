@@ -89,7 +89,9 @@ class ChangingScenes : public Techniques {
 std::vector<TechniqueChoice> choices(const Scene& some) {
     std::vector<TechniqueChoice> all;
     for (const TechniqueDescription* t : techniques()) {
-        const TechniqueChoice choice{std::string(t->name)};
+        TechniqueChoice choice{std::string(t->name)};
+        // Small pictures of few lights: software draws each of them.
+        if (t->realtime) choice.options = {{"light_points", "2"}, {"light_view", "128"}};
         if (t->realtime) try {
                 prepare(some, plan_of(some, choice));
             } catch (const RunError& error) {
