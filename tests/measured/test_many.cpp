@@ -243,4 +243,14 @@ TEST(Many, MeasuredFiles) {
     }
 }
 
+/// Found by a fuzzer: nothing is near to what is not a number, and nothing is read then.
+TEST(Scattered, DirectionsThatAreNoNumbersHaveNoValue) {
+    const auto data =
+        parse_measured({"theta_i,phi_i,theta_o,phi_o,x,y,z\n15,0,40,180,1,2,3\n", "one.csv"});
+    double out[3];
+    const double no = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(data->eval({no, 0., 0.5}, {0., 0., 1.}, out));
+    EXPECT_FALSE(data->eval({0., 0., 1.}, {0., no, 0.5}, out));
+}
+
 }  // namespace nacre

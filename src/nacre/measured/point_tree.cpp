@@ -45,7 +45,7 @@ void PointTree::build(const std::vector<Point>& points, std::span<std::uint32_t>
         leaf.count = int(part.size());
         for (int i = 0; i < leaf.count; ++i) {
             leaf.index[i] = part[i];
-            for (int k = 0; k < 4; ++k) leaf.at[k].set(i, points[part[i]][k]);
+            for (int k = 0; k < 4; ++k) leaf.at[k][i] = points[part[i]][k];
         }
         return;
     }
@@ -78,13 +78,12 @@ void PointTree::search(std::uint32_t at, double within, Search& s) const {
     const Node& node = nodes_[at];
     if (node.axis < 0) {
         const Leaf& leaf = leaves_[node.other];
-        Lanes<double, bucket> sum;
-        for (int k = 0; k < 4; ++k) {
-            const Lanes<double, bucket> d = Lanes<double, bucket>(s.p[k]) - leaf.at[k];
-            sum += d * d;
-        }
-        double distance[bucket];
-        sum.store(distance);
+        double distance[bucket] = {};
+        for (int k = 0; k < 4; ++k)
+            for (int i = 0; i < bucket; ++i) {
+                const double d = s.p[k] - leaf.at[k][i];
+                distance[i] += d * d;
+            }
         for (int i = 0; i < leaf.count; ++i)
             if (distance[i] <= s.farthest) s.offer(distance[i], leaf.index[i]);
         return;

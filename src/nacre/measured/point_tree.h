@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "nacre/math/lanes.h"
-
 namespace nacre {
 
 /// A balanced k-d tree (J. L. Bentley 1975, Multidimensional Binary Search Trees Used for
@@ -38,7 +36,7 @@ class PointTree {
         std::uint32_t other = 0;  ///< the node beyond the split; of a leaf, which one it is
     };
     struct Leaf {
-        Lanes<double, bucket> at[4];
+        double at[4][bucket] = {};
         std::array<std::uint32_t, bucket> index{};
         int count = 0;
     };

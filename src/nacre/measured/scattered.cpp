@@ -38,7 +38,8 @@ bool ScatteredMeasured::eval(const Vec3d& wi, const Vec3d& wo, std::span<double>
     PointTree::Near near[neighbours + 1];
     const int count =
         side.tree.nearest(scattered_place(wi, wo, info_.isotropic), neighbours + 1, near);
-    if (!(near[0].distance <= reach_)) return false;
+    // From directions that are not numbers nothing is near.
+    if (count == 0 || !(near[0].distance <= reach_)) return false;
     double weight[neighbours + 1] = {};
     double sum = 0.;
     if (near[0].distance < same) {  // measured, perhaps several times
