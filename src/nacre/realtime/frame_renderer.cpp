@@ -152,9 +152,8 @@ std::vector<LightPoint> FrameRenderer::lights_at(const Point3f& middle,
     return points;
 }
 
-void FrameRenderer::light(const View&, const CameraSurface& camera, Part& part,
-                          const LightPoint& point, const FrameOptions& options, bool first,
-                          bool last) {
+void FrameRenderer::light(const CameraSurface& camera, Part& part, const LightPoint& point,
+                          const FrameOptions& options, bool first, bool last) {
     const GpuShape& shape = scene_.shapes()[part.part];
     const Point3f middle = shape.bounds.center();
     const float radius = shape.radius * 1.01f;
@@ -235,8 +234,7 @@ const Texture& FrameRenderer::render(const View& view, const FrameOptions& optio
         for (const auto& part : parts_) box.extend(scene_.shapes()[part->part].bounds);
         for (const LightPoint& point : lights_at(box.center(), options))
             for (const auto& part : parts_)
-                light(view, camera, *part, point, options, part == parts_.front(),
-                      part == parts_.back());
+                light(camera, *part, point, options, part == parts_.front(), part == parts_.back());
         for (const auto& part : parts_) part->technique->finish(camera, below_);
     }
     compose(view);

@@ -45,7 +45,7 @@ class FrameRenderer {
     void make_parts(const Work& work);
     void resize(const View& view, int light_view);
     void see(const View& view);
-    void light(const View& view, const CameraSurface& camera, Part& part, const LightPoint& point,
+    void light(const CameraSurface& camera, Part& part, const LightPoint& point,
                const FrameOptions& options, bool first, bool last);
     void compose(const View& view);
     std::vector<LightPoint> lights_at(const Point3f& middle, const FrameOptions& options);

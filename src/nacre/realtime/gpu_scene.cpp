@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numbers>
 
-#include "nacre/geometry/tessellate.h"
 #include "nacre/math/error.h"
-#include "nacre/math/sobol.h"
-#include "nacre/math/warp.h"
 #include "nacre/realtime/shape_vertices.h"
 #include "nacre/render/object_boundary.h"
 #include "nacre/scene/subsurface.h"

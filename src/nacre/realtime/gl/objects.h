@@ -29,11 +29,11 @@ class GlName {
     std::uint32_t name_ = 0;
 };
 
-/// A picture on the device, or a stack of pictures (`layers`), with its smaller levels.
+/// A picture on the device, with its smaller levels.
 class Texture {
   public:
     Texture() = default;
-    /// One level; two-dimensional. Filtered linearly (whole numbers: not at all), clamped to its
+    /// Filtered linearly (whole numbers: not at all), clamped to its
     /// edge. Its texels are undefined. Throws RunError if the device has no room.
     Texture(TexelFormat format, int width, int height, int levels = 1);
     ~Texture();
