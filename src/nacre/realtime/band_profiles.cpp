@@ -18,9 +18,11 @@ BandProfiles::BandProfiles(const RealtimeInput& in) {
     const std::vector<double> rough = rough_return(in.boundary, media, in.work);
     for (std::size_t b = 0; b < 3; ++b) {
         media_[b] = media[b];
-        profiles_[b] = make_profile(in.profile, media[b]);
+        const auto profile = make_profile(in.profile, media[b]);
+        tables_.emplace_back(*profile);
         if (!rough.empty()) factors_[b] = rough[b];
-        scale_ = std::max(scale_, profiles_[b]->scale());
+        totals_[b] = factors_[b] * profile->total();
+        scale_ = std::max(scale_, profile->scale());
     }
     // All but a thousandth of the mean.
     reach_ = radius_of(0.999);

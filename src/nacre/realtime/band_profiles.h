@@ -2,9 +2,9 @@
 // R(r) of a shape's medium in red, green and blue: on the processor, and as a texture for shaders
 // (profile.glsl). Lengths are scene units, R per area in them.
 #include <array>
-#include <memory>
+#include <vector>
 
-#include "nacre/bssrdf/profile.h"
+#include "nacre/bssrdf/radial_table.h"
 #include "nacre/realtime/realtime_technique.h"
 
 namespace nacre {
@@ -15,12 +15,12 @@ class BandProfiles {
     explicit BandProfiles(const RealtimeInput& input);
 
     const std::array<ProfileMedium, 3>& media() const { return media_; }
-    /// R of a band at r > 0.
-    double eval(int band, double r) const { return factors_[std::size_t(band)] * of(band).eval(r); }
+    /// R of a band at r > 0, from a table: within 1e-4.
+    double eval(int band, double r) const { return factor(band) * of(band).eval(float(r * r)); }
     double cumulative(int band, double r) const {
-        return factors_[std::size_t(band)] * of(band).cumulative(r);
+        return factor(band) * of(band).cumulative(float(r * r));
     }
-    double total(int band) const { return factors_[std::size_t(band)] * of(band).total(); }
+    double total(int band) const { return totals_[std::size_t(band)]; }
     /// The largest length on which any band varies, and beyond which nothing much is.
     double scale() const { return scale_; }
     double reach() const { return reach_; }
@@ -36,10 +36,12 @@ class BandProfiles {
     void bind(ComputePass& pass, int unit, const Texture& texture) const;
 
   private:
-    const RadialProfile& of(int band) const { return *profiles_[std::size_t(band)]; }
+    const RadialTable& of(int band) const { return tables_[std::size_t(band)]; }
+    double factor(int band) const { return factors_[std::size_t(band)]; }
 
     std::array<ProfileMedium, 3> media_;
-    std::array<std::unique_ptr<RadialProfile>, 3> profiles_;
+    std::vector<RadialTable> tables_;  // some profiles take long to ask
+    std::array<double, 3> totals_{};
     std::array<double, 3> factors_{1, 1, 1};  // of a rough boundary
     double scale_ = 0, reach_ = 0;
 };
